@@ -43,33 +43,44 @@ void add_arc(const Point& from, const Point& middle, const Point& to, SharpEdge&
 
 }  // namespace
 
-std::vector<SharpEdge> reentrant_edges(const CellMesh& mesh, const std::map<int, std::string>& names,
-                                       double distance_m) {
-  struct Side {
-    std::size_t face, edge;
-  };
-  std::map<std::pair<int, int>, Side> open;  // edges met once
-  std::map<std::string, SharpEdge> found;
+std::vector<std::array<SharpSide, 2>> sharp_sides(const CellMesh& mesh) {
+  std::map<std::pair<int, int>, SharpSide> open;  // edges met once
+  std::vector<std::array<SharpSide, 2>> found;
   for (std::size_t f = 0; f < mesh.n_faces(); ++f)
     for (std::size_t e = 0; e < mesh.corners_per_face(); ++e) {
       const int a = mesh.face(f)[e], b = mesh.face(f)[(e + 1) % mesh.corners_per_face()];
-      const auto [other, is_new] = open.emplace(std::minmax(a, b), Side{f, e});
+      const auto [other, is_new] = open.emplace(std::minmax(a, b), SharpSide{f, e});
       if (is_new) continue;
       const Point mine = unit_normal(mesh, f), its = unit_normal(mesh, other->second.face);
       // Re-entrant: the other face rises above the plane of this one.
       const Point across = corner(mesh, other->second.face, other->second.edge + 2);
-      if (dot(mine, its) >= cosine_of_limit || dot(minus(across, mesh.points[a]), mine) <= 0) continue;
-      const auto pair = std::minmax(names.at(mesh.face_id[f]), names.at(mesh.face_id[other->second.face]));
-      SharpEdge& edge = found[pair.first + "/" + pair.second];
-      edge.name = pair.first + "/" + pair.second;
-      edge.distance_m = distance_m;
-      const std::size_t between =
-          mesh.corners_per_face() + e;  // on the middle of the edge, where there is one
-      if (between < mesh.nodes_per_face())
-        add_arc(mesh.points[a], mesh.points[mesh.face(f)[between]], mesh.points[b], edge);
-      else
-        edge.pieces.push_back({mesh.points[a], mesh.points[b]});
+      if (dot(mine, its) < cosine_of_limit && dot(minus(across, mesh.points[a]), mine) > 0)
+        found.push_back({SharpSide{f, e}, other->second});
     }
+  return found;
+}
+
+std::string name_of_pair(const std::map<int, std::string>& names, int id, int other_id) {
+  const auto pair = std::minmax(names.at(id), names.at(other_id));
+  return pair.first + "/" + pair.second;
+}
+
+std::vector<SharpEdge> reentrant_edges(const CellMesh& mesh, const std::map<int, std::string>& names,
+                                       double distance_m) {
+  std::map<std::string, SharpEdge> found;
+  for (const auto& [side, other] : sharp_sides(mesh)) {
+    const auto name = name_of_pair(names, mesh.face_id[side.face], mesh.face_id[other.face]);
+    SharpEdge& edge = found[name];
+    edge.name = name;
+    edge.distance_m = distance_m;
+    const Point a = corner(mesh, side.face, side.edge), b = corner(mesh, side.face, side.edge + 1);
+    const std::size_t between =
+        mesh.corners_per_face() + side.edge;  // on the middle of the edge, where there is one
+    if (between < mesh.nodes_per_face())
+      add_arc(a, mesh.points[mesh.face(side.face)[between]], b, edge);
+    else
+      edge.pieces.push_back({a, b});
+  }
   std::vector<SharpEdge> edges;
   for (auto& [name, edge] : found) edges.push_back(std::move(edge));
   return edges;

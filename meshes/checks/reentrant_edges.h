@@ -16,6 +16,16 @@ namespace meshes {
 std::vector<SharpEdge> reentrant_edges(const CellMesh& mesh, const std::map<int, std::string>& names,
                                        double distance_m);
 
+/// An edge of a boundary face: from its corner `edge` to the next one.
+struct SharpSide {
+  std::size_t face = 0, edge = 0;
+};
+/// The mesh edges of reentrant_edges, each by the two faces that meet there.
+std::vector<std::array<SharpSide, 2>> sharp_sides(const CellMesh& mesh);
+
+/// Of the sharp edge between the features of two groups.
+std::string name_of_pair(const std::map<int, std::string>& names, int id, int other_id);
+
 /// A body's size, however it is turned.
 struct BodySize {
   double area_m2 = 0, volume_m3 = 0;

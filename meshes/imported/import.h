@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "meshes/checks/part_welds.h"
 #include "meshes/solids/solid_control.h"
 #include "meshes/values/body_mesh.h"
 
@@ -41,6 +42,7 @@ struct Import {
   std::filesystem::path geometry;  ///< .step, .stp, or .msh of any version
   double scale_to_m = 0;           ///< length of the file's unit; 0: 1e-3 for STEP (mm), 1 for .msh
   std::vector<ImportPort> ports;
+  std::vector<PartWeld> welds{};  ///< hot-spot stress is read beside these sharp edges
   SolidControl control;     ///< for a .msh only min_scaled_jacobian and exclusion_m count
   double time_limit_s = 0;  ///< of a core, for reading and again for meshing; 0: from size and cells
 };

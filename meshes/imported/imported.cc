@@ -214,6 +214,12 @@ BodyMesh build_unnamed(const Import& import) {
   body.sharp_edges = reentrant_edges(model.mesh, body.groups.boundaries, exclusion_m);
   for (auto& tip : reentrant_points(model.mesh, body.sharp_edges, body.groups.boundaries, exclusion_m))
     body.sharp_edges.push_back(std::move(tip));
+  for (std::size_t i = 0; i < import.welds.size(); ++i) {
+    const auto toes =
+        place_weld_toes(model.mesh, body.groups.boundaries, import.welds[i], int(i) + 1, body.sharp_edges);
+    body.hot_spots.insert(body.hot_spots.end(), toes.hot_spots.begin(), toes.hot_spots.end());
+    body.covered_toes.insert(body.covered_toes.end(), toes.covered.begin(), toes.covered.end());
+  }
   body.straight_edges = std::move(model.straight_edges);
   body.smallest_size_m = model.smallest_size_m;
   body.cells = std::make_shared<const CellMesh>(std::move(model.mesh));

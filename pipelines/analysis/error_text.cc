@@ -95,12 +95,18 @@ std::string rises_towards_edge(const BodyAnalysis& analysis) {
   if (governing_stress(analysis).kind != GoverningStress::Kind::peak) return {};
   const auto* edge = edge_beside_peak(analysis);
   if (edge == nullptr) return {};
+  std::string weld = "judge a weld by the stress at points farther away (millstress history)";
+  if (std::holds_alternative<meshes::Import>(analysis.scene.shape)) {
+    const auto& at_m = analysis.peak.position_m;
+    weld = fmt::format(
+        "where it is a weld say so, then its hot-spot stress is judged: [[{}.edges]] at = [\"{:.1f} mm\", "
+        "\"{:.1f} mm\", \"{:.1f} mm\"], kind = \"weld\", thickness = that of the plate",
+        analysis.scene.name, 1e3 * at_m[0], 1e3 * at_m[1], 1e3 * at_m[2]);
+  }
   return fmt::format(
       "the stress rises towards the sharp inner edge {}, around which {:.2g} mm are left out: {} MPa at the "
-      "border, and no limit nearer to the edge; model its fillet, or judge a weld by the stress at points "
-      "farther away "
-      "(millstress history)",
-      edge->name, edge->distance_m * 1e3, fixed(largest_at_border_Pa(analysis) / 1e6, 1));
+      "border, and no limit nearer to the edge; model its fillet, or {}",
+      edge->name, edge->distance_m * 1e3, fixed(largest_at_border_Pa(analysis) / 1e6, 1), weld);
 }
 
 std::string not_known_well(const GoverningStress& stress, const Search& search) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -98,12 +99,21 @@ double longest_face_m(const fem::Nodes& nodes, std::size_t node) {
   return longest_m;
 }
 
+bool is_of(const meshes::SharpEdge& edge, const std::string& face) {
+  return ("/" + edge.name + "/").find("/" + face + "/") != std::string::npos;
+}
+
 /// The edge whose border is nearest to a point; null: there are none.
+/// @param face  that the point is on: one of its edges, if the point is beside it; another one may leave out
+///              more, and end there
 const meshes::SharpEdge* nearest_border(const std::vector<meshes::SharpEdge>& edges,
-                                        const std::array<double, 3>& at_m) {
-  const auto nearest = std::min_element(edges.begin(), edges.end(), [&](const auto& a, const auto& b) {
-    return distance_m(at_m, a) - a.distance_m < distance_m(at_m, b) - b.distance_m;
-  });
+                                        const std::array<double, 3>& at_m, const std::string& face) {
+  const auto rank = [&](const meshes::SharpEdge& edge) {
+    const double away_m = distance_m(at_m, edge);
+    return std::pair(!(is_of(edge, face) && away_m < beside * edge.distance_m), away_m - edge.distance_m);
+  };
+  const auto nearest = std::min_element(edges.begin(), edges.end(),
+                                        [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
   return nearest == edges.end() ? nullptr : &*nearest;
 }
 
@@ -167,7 +177,8 @@ double largest_at_border_Pa(const BodyAnalysis& analysis) {
 }
 
 const meshes::SharpEdge* edge_beside_peak(const BodyAnalysis& analysis) {
-  const auto* nearest = nearest_border(analysis.mesh.sharp_edges, analysis.peak.position_m);
+  const auto* nearest =
+      nearest_border(analysis.mesh.sharp_edges, analysis.peak.position_m, analysis.peak.feature);
   if (nearest == nullptr) return nullptr;
   if (distance_m(analysis.peak.position_m, *nearest) < beside * nearest->distance_m) return nearest;
   const auto& nodes = analysis.responses.nodes;
@@ -193,7 +204,7 @@ namespace {
 /// Of tetrahedra that may be larger than what is left out: those count that reach from the place to within.
 double tetrahedra_to_border(const BodyAnalysis& analysis, const PlaceStress& place) {
   const auto& nodes = analysis.responses.nodes;
-  const auto* edge = nearest_border(analysis.mesh.sharp_edges, place.position_m);
+  const auto* edge = nearest_border(analysis.mesh.sharp_edges, place.position_m, place.feature);
   if (edge == nullptr) return 0;
   const auto is_excluded = [&](std::int32_t i) { return analysis.places.excluded[std::size_t(i)] != 0; };
   bool is_beside = distance_m(place.position_m, *edge) < beside * edge->distance_m;

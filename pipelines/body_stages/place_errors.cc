@@ -41,16 +41,17 @@ double for_want_of_cells(const BodyAnalysis& analysis, int cells) {
   return cells < 4 ? 0.5 : cells < 6 ? of_four : 0.04;
 }
 
-/// Of tetrahedra, in place of it, and never less than submodels tell: assumed, not measured; the parts of
-/// tests/verification/sharp_edges show whether it holds.
-constexpr double of_one_tetrahedron = 0.05, largest_of_tetrahedra = 0.5;
-
-/// Relative error of the stress on the border of what is left out around a sharp shoulder, by
-/// cells_to_border. Cells that touch the edge disturb those beside them: solids were 17 % too high with one
-/// cell, 5.5 % with 2.5, 1.2 % with 5, while the changes from mesh to mesh told of a third.
+/// Relative error of the stress on the border of what is left out around a sharp edge, by cells_to_border.
+/// Of shoulders of blocks: cells that touch the edge disturb those beside them; solids were 17 % too high
+/// with one cell, 5.5 % with 2.5, 1.2 % with 5, while the changes from mesh to mesh told of a third. Of
+/// tetrahedra: within one cell of the edge the stress is as steep as the interpolant of r^0.54, 34 % too
+/// high, so that a quarter of it is not there (tests/unit/fem/recovery/sharp_edges_have_two_sides.cc); from
+/// one cell on it falls as beside blocks, 3 to 4 % with two (tests/verification/sharp_edges).
 double for_want_of_cells_to_border(double cells, bool of_tetrahedra) {
-  return of_tetrahedra ? std::min(largest_of_tetrahedra, of_one_tetrahedron / std::sqrt(cells))
-                       : 0.2 / std::pow(cells, 1.25);
+  constexpr double order = 1.25, within_first_tetrahedron = 0.25, of_one_tetrahedron = 0.12,
+                   of_one_block = 0.2;
+  return of_tetrahedra ? std::min(within_first_tetrahedron, of_one_tetrahedron / std::pow(cells, order))
+                       : of_one_block / std::pow(cells, order);
 }
 
 double geometry_share_at(const StressPoint& point, const BodyAnalysis& analysis) {

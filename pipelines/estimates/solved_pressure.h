@@ -37,7 +37,8 @@ double share_of_loads(const BodyLoads& loads, const std::string& port, const Eig
 
 /// |S_n| at a point for all n >= 2: of the harmonics that were solved the von Mises stress of both phases
 /// together; of one between two of them the larger one; above the last one A / (n^2 - 1) + B through the last
-/// two, neither negative: a ring's bending, and what the pressure does right below itself. That bounds what
+/// two, component by component: a ring's bending, and what the pressure does right below itself, which may
+/// take from each other in the von Mises stress of the harmonics that were solved and not above. That bounds what
 /// falls with distance from the seat, too. With one of them alone it stays, with the mean pressure alone it
 /// is that of a ring (PressureModel::ring_factor).
 class StressByHarmonic {

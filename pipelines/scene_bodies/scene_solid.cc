@@ -92,6 +92,21 @@ meshes::ImportPort read_port(SceneTable& table) {
   return port;
 }
 
+/// A sharp inner edge that is a weld.
+meshes::PartWeld read_weld(SceneTable& table) {
+  meshes::PartWeld weld;
+  weld.at_m = point(table, "at");
+  const std::string kind = table.text("kind");
+  if (!kind.empty() && kind != "weld")
+    table.refuse(
+        "kind",
+        "write \"weld\": its hot-spot stress is read; an edge that is no weld needs its fillet in the "
+        "model");
+  weld.thickness_m = table.quantity("thickness", "m", positive(longest_part_m));
+  table.finish();
+  return weld;
+}
+
 }  // namespace
 
 meshes::SolidControl read_solid_control(SceneTable mesh) {
@@ -129,6 +144,9 @@ meshes::Import read_import(SceneTable& body, const std::filesystem::path& scene_
   body.know("length_unit");
   if (body.has("length_unit")) import.scale_to_m = body.quantity("length_unit", "m", positive(1e3));
   for (SceneTable& table : body.tables("ports")) import.ports.push_back(read_port(table));
+  body.know("edges");
+  if (body.has("edges"))
+    for (SceneTable& table : body.tables("edges")) import.welds.push_back(read_weld(table));
   std::vector<std::string> missing;
   for (const auto& name : needed_ports)
     if (std::none_of(import.ports.begin(), import.ports.end(), [&](const auto& p) { return p.name == name; }))

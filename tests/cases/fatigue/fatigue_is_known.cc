@@ -19,9 +19,12 @@ std::string judged(const std::string& mesh = "") {
 
 }  // namespace
 
-// The related gradient of a shoulder in bending is 2.3 / r by the tables of FKM and DIN 743 (d/D = 2/3), for
-// the small fillet of a thick shaft, too: cells there are a tenth of a millimetre along the section and ten
-// around. Turns red: a plane or quadratic in x, y, z through the nodes around, 2.8 and 3.2 instead of 4.6/mm.
+// The related gradient of the normal stress at a shoulder in bending is 2.3 (1 + phi) / r by the tables of FKM and
+// DIN 743 (d/D = 2/3), phi 0.05, for the small fillet of a thick shaft, too. Von Mises stress falls faster: below a
+// free surface the normal stress across it rises by sigma / r, which with a hoop stress of nu sigma brings
+// (1 + nu) / (2 (1 - nu + nu^2)) / r = 0.82 / r. What lies between is right; coarse cells, here a tenth of a
+// millimetre, tell a tenth less than the table. Turns red: a plane or quadratic in x, y, z through the nodes around,
+// 2.8 and 3.2 instead of 4.6/mm.
 TEST(Fatigue, SupportOfASmallFilletIsThatOfItsRadius) {
   const results_test::Directory directory;
   const double fillet_m = 0.5e-3;
@@ -49,7 +52,9 @@ pressure_harmonics = 0)" + judged("[shaft.mesh]\nsectors = 8\n");
     const auto& place = json["bodies"]["shaft"]["fatigue"]["places"][0];
     EXPECT_EQ(place["feature"], "fillet rest/neck");
     std::printf("%s: G r = %.3f\n", method.c_str(), place["related_gradient_1_m"].get<double>() * fillet_m);
-    EXPECT_NEAR(place["related_gradient_1_m"].get<double>() * fillet_m, 2.3, 0.1 * 2.3) << method;
+    const double related = place["related_gradient_1_m"].get<double>() * fillet_m, of_table = 2.3;
+    EXPECT_GT(related, 0.9 * of_table) << method;
+    EXPECT_LT(related, of_table * 1.05 + 0.82) << method;
     // The neck of 60 mm by FKM's K_d (tests/unit/pipelines/fatigue/size_factors_of_fkm.cc), and what the run
     // with that factor comes to. Turns red: the diameter of another segment, R_m alone scaled and not what
     // follows.

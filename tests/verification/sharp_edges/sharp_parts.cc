@@ -90,39 +90,57 @@ std::vector<SharpPart> all() {
   const auto plate = along_x(0, 80, {40, 12}), block = along_x(0, 80, {50, 25}),
              grooved = along_x(0, 80, {40, 30});
   return {
-      {"L bracket", [=] { fuse({base(), upright()}); }, upright_end, base_end, 3000},
+      {"L bracket",
+       [=] {
+         fuse({base(), upright()});
+       },
+       upright_end, base_end, 3000},
       {"T joint",
-       [] { fuse({box({-50, 0, 0}, {100, 12, 40}), box({-6, 12, 0}, {12, 50, 40})}); },
-       face(1, 62, {-6, 0}, {6, 40}),
-       face(0, 50, {0, 0}, {12, 40}),
-       3000},
+       [] {
+         fuse({box({-50, 0, 0}, {100, 12, 40}), box({-6, 12, 0}, {12, 50, 40})});
+       },
+       face(1, 62, {-6, 0}, {6, 40}), face(0, 50, {0, 0}, {12, 40}), 3000},
       {"gusset",
        [=] {
          fuse({base(), upright(), wedge({{{12, 12, 16}, {40, 12, 16}, {12, 40, 16}}}, 8)});
        },
-       upright_end,
-       base_end,
-       6000},
+       upright_end, base_end, 6000},
       {"stepped plate",
-       [] { fuse({box({0, 0, 0}, {50, 40, 20}), box({50, 10, 0}, {50, 20, 20})}); },
-       face(0, 100, {10, 0}, {30, 20}),
-       face(0, 0, {0, 0}, {40, 20}),
-       40000},
-      {"pocket", [] { cut(box({0, 0, 0}, {80, 50, 25}), box({15, 12, 10}, {50, 26, 15})); }, block.second,
-       block.first, 60000},
-      {"slot", [] { cut(box({0, 0, 0}, {80, 40, 12}), box({30, 10, 0}, {20, 20, 12})); }, plate.second,
-       plate.first, 20000},
-      {"groove", [] { cut(box({0, 0, 0}, {80, 40, 30}), box({35, 0, 22}, {10, 40, 8})); }, grooved.second,
-       grooved.first, 40000},
-      {"cross", [] { fuse({box({-40, -8, 0}, {80, 16, 16}), box({-8, -40, 0}, {16, 80, 16})}); },
+       [] {
+         fuse({box({0, 0, 0}, {50, 40, 20}), box({50, 10, 0}, {50, 20, 20})});
+       },
+       face(0, 100, {10, 0}, {30, 20}), face(0, 0, {0, 0}, {40, 20}), 40000},
+      {"pocket",
+       [] {
+         cut(box({0, 0, 0}, {80, 50, 25}), box({15, 12, 10}, {50, 26, 15}));
+       },
+       block.second, block.first, 60000},
+      {"slot",
+       [] {
+         cut(box({0, 0, 0}, {80, 40, 12}), box({30, 10, 0}, {20, 20, 12}));
+       },
+       plate.second, plate.first, 20000},
+      {"groove",
+       [] {
+         cut(box({0, 0, 0}, {80, 40, 30}), box({35, 0, 22}, {10, 40, 8}));
+       },
+       grooved.second, grooved.first, 40000},
+      {"cross",
+       [] {
+         fuse({box({-40, -8, 0}, {80, 16, 16}), box({-8, -40, 0}, {16, 80, 16})});
+       },
        face(0, 40, {-8, 0}, {8, 16}), face(1, 40, {-8, 0}, {8, 16}), 4000},
       {"boss",
-       [] { fuse({box({-40, -30, 0}, {80, 60, 10}), occ::addCylinder(0, 0, 10, 0, 0, 20, 12)}); },
+       [] {
+         fuse({box({-40, -30, 0}, {80, 60, 10}), occ::addCylinder(0, 0, 10, 0, 0, 20, 12)});
+       },
        {{-12.1, -12.1, 29.9}, {12.1, 12.1, 30.1}, {0, 0, 30}},
        face(0, -40, {-30, 0}, {30, 10}),
        4000},
       {"stepped bar",
-       [] { fuse({occ::addCylinder(0, 0, 0, 40, 0, 0, 15), occ::addCylinder(40, 0, 0, 40, 0, 0, 10)}); },
+       [] {
+         fuse({occ::addCylinder(0, 0, 0, 40, 0, 0, 15), occ::addCylinder(40, 0, 0, 40, 0, 0, 10)});
+       },
        {{79.9, -10.1, -10.1}, {80.1, 10.1, 10.1}, {80, 0, 0}},
        {{-0.1, -15.1, -15.1}, {0.1, 15.1, 15.1}, {0, 0, 0}},
        30000},
@@ -138,9 +156,9 @@ std::filesystem::path write_scene(const SharpPart& part, const std::filesystem::
   for (std::size_t d = 0; d < 3; ++d) {
     const double force_N = part.force_N * along[d] / length;
     if (force_N == 0) continue;
-    loads +=
-        fmt::format("\n[[machine.constants]]\neffect = \"pull\"\nload = \"pulled.f{}\"\nvalue = \"{:.17g} N\"\n",
-                    "xyz"[d], force_N);
+    loads += fmt::format(
+        "\n[[machine.constants]]\neffect = \"pull\"\nload = \"pulled.f{}\"\nvalue = \"{:.17g} N\"\n",
+        "xyz"[d], force_N);
   }
   const auto scene = directory / "scene.toml";
   std::ofstream(scene) << "title = \"" << part.name << R"("

@@ -12,6 +12,7 @@
 #include "meshes/imported/imported.h"
 #include "tests/unit/meshes/examples/example_shafts.h"
 #include "tests/unit/meshes/examples/mesh_file.h"
+#include "tests/unit/meshes/examples/tetrahedra_file.h"
 
 inline constexpr int cells_around = 10;  // a circle: coarse, for speed
 

@@ -436,7 +436,7 @@ const std::vector<CadPart>& cad_parts() {
       {"swept along a spline", swept_along_a_spline},
       {"lofted, square to circle", lofted},
       {"lofted blade", lofted_blade},
-      {"crankshaft", crankshaft},
+      {"crankshaft", crankshaft, 2},
       {"crankshaft, tangent webs", crankshaft_with_points, 2},
       {"hollow cone", cone_cup, 1},
       {"disc spring", disc_spring},

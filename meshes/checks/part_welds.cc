@@ -1,0 +1,139 @@
+#include "meshes/checks/part_welds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "meshes/checks/reentrant_edges.h"
+#include "meshes/values/refused.h"
+#include "meshes/values/vectors.h"
+
+namespace meshes {
+namespace {
+
+constexpr double near_walls = 0.4, far_walls = 1.0, spacing_walls = 0.5;
+/// Of the plate thickness: a point that much off the face lies beyond its end, or the face is strongly
+/// curved.
+constexpr double off_face_walls = 0.02;
+
+Point along(const Point& from, const Vector& direction, double distance) {
+  Point p{};
+  for (int d = 0; d < 3; ++d) p[d] = from[d] + distance * direction[d];
+  return p;
+}
+
+Vector unit(const Vector& v) {
+  const double size = length(v);
+  return {v[0] / size, v[1] / size, v[2] / size};
+}
+
+Point nearest_on_piece(const Point& p, const Point& a, const Point& b) {
+  const Vector ab = minus(b, a);
+  const double size = dot(ab, ab);
+  return along(a, ab, size > 0 ? std::clamp(dot(minus(p, a), ab) / size, 0.0, 1.0) : 0.0);
+}
+
+Point nearest_on_triangle(const Point& p, const Point& a, const Point& b, const Point& c) {
+  const Vector n = unit(cross(minus(b, a), minus(c, a)));
+  const Point foot = along(p, n, -dot(minus(p, a), n));
+  const bool is_inside = triple_product(n, minus(b, a), minus(foot, a)) >= 0 &&
+                         triple_product(n, minus(c, b), minus(foot, b)) >= 0 &&
+                         triple_product(n, minus(a, c), minus(foot, c)) >= 0;
+  if (is_inside) return foot;
+  const Point on[] = {nearest_on_piece(p, a, b), nearest_on_piece(p, b, c), nearest_on_piece(p, c, a)};
+  return *std::min_element(std::begin(on), std::end(on), [&](const Point& one, const Point& other) {
+    return length(minus(p, one)) < length(minus(p, other));
+  });
+}
+
+/// On the flat faces of a group.
+Point nearest_on_group(const CellMesh& mesh, int face_id, const Point& p) {
+  Point nearest{};
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t f = 0; f < mesh.n_faces(); ++f) {
+    if (mesh.face_id[f] != face_id) continue;
+    const int* n = mesh.face(f);
+    const Point on = nearest_on_triangle(p, mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]]);
+    if (const double away = length(minus(p, on)); away < least) {
+      least = away;
+      nearest = on;
+    }
+  }
+  return nearest;
+}
+
+double distance_to(const SharpEdge& edge, const Point& p) {
+  double least = std::numeric_limits<double>::max();
+  for (const auto& [a, b] : edge.pieces) least = std::min(least, length(minus(p, nearest_on_piece(p, a, b))));
+  return least;
+}
+
+/// In the face, away from the edge and at right angles to it.
+Vector across_edge(const CellMesh& mesh, const SharpSide& side) {
+  const int* n = mesh.face(side.face);
+  const Point a = mesh.points[n[side.edge]], b = mesh.points[n[(side.edge + 1) % 3]],
+              c = mesh.points[n[(side.edge + 2) % 3]];
+  const Vector edge = unit(minus(b, a)), into = minus(c, a);
+  return unit(along(into, edge, -dot(into, edge)));
+}
+
+}  // namespace
+
+PartToes place_weld_toes(const CellMesh& mesh, const std::map<int, std::string>& names, const PartWeld& weld,
+                         int number, std::vector<SharpEdge>& edges) {
+  char place[100];
+  std::snprintf(place, sizeof place, "(%.4g, %.4g, %.4g) mm", 1e3 * weld.at_m[0], 1e3 * weld.at_m[1],
+                1e3 * weld.at_m[2]);
+  if (mesh.kind != CellKind::tetrahedra)
+    throw GeometryRefused(std::string("the weld at ") + place +
+                          ": hot-spot stress is read on tetrahedra only; give the part as STEP");
+  const double t = weld.thickness_m;
+  const auto edge = std::min_element(edges.begin(), edges.end(), [&](const auto& one, const auto& other) {
+    return distance_to(one, weld.at_m) < distance_to(other, weld.at_m);
+  });
+  if (edge == edges.end() || distance_to(*edge, weld.at_m) > t)
+    throw GeometryRefused(std::string("the weld at ") + place +
+                          ": no sharp inner edge is within a plate thickness of that point; give a point on "
+                          "the edge");
+  edge->distance_m = std::max(edge->distance_m, t);
+  PartToes toes;
+  std::vector<std::pair<Point, int>> taken;  // toe, group
+  std::map<int, int> count;
+  for (const auto& pair : sharp_sides(mesh)) {
+    const int id[] = {mesh.face_id[pair[0].face], mesh.face_id[pair[1].face]};
+    if (name_of_pair(names, id[0], id[1]) != edge->name) continue;
+    for (int k = 0; k < 2; ++k) {
+      const int* n = mesh.face(pair[k].face);
+      const Point a = mesh.points[n[pair[k].edge]], b = mesh.points[n[(pair[k].edge + 1) % 3]];
+      const Point toe = along(a, minus(b, a), 0.5);
+      if (std::any_of(taken.begin(), taken.end(), [&](const auto& other) {
+            return other.second == id[k] && length(minus(other.first, toe)) < spacing_walls * t;
+          }))
+        continue;
+      taken.emplace_back(toe, id[k]);
+      HotSpot spot{"weld " + std::to_string(number) + " toe " + std::to_string(++count[id[k]]) + " on " +
+                       names.at(id[k]),
+                   t,
+                   toe,
+                   {},
+                   {}};
+      const Vector across = across_edge(mesh, pair[k]);
+      bool is_read = true;
+      for (const auto& [walls, point] :
+           {std::pair(near_walls, &spot.near_m), std::pair(far_walls, &spot.far_m)}) {
+        const Point wanted = along(toe, across, walls * t);
+        *point = nearest_on_group(mesh, id[k], wanted);
+        is_read = is_read && length(minus(*point, wanted)) <= off_face_walls * t;
+      }
+      if (is_read)
+        toes.hot_spots.push_back(spot);
+      else
+        toes.covered.push_back(spot.name);
+    }
+  }
+  return toes;
+}
+
+}  // namespace meshes
