@@ -13,7 +13,7 @@
 namespace meshes {
 namespace {
 
-constexpr double near_walls = 0.4, far_walls = 1.0, spacing_walls = 0.5;
+constexpr double near_walls = 0.4, far_walls = 1.0;
 /// Of the plate thickness: a point that much off the face lies beyond its end, or the face is strongly
 /// curved.
 constexpr double off_face_walls = 0.02;
@@ -79,6 +79,75 @@ Vector across_edge(const CellMesh& mesh, const SharpSide& side) {
   return unit(along(into, edge, -dot(into, edge)));
 }
 
+/// A mesh edge of a weld, from one of its nodes to the other along the weld.
+struct WeldStep {
+  int from = 0, to = 0;
+  std::array<SharpSide, 2> sides{};
+};
+
+/// Steps end to end, each chain from that end of it which comes first in x, y, z: the same for every mesh. A
+/// ring begins at its first node.
+std::vector<std::vector<WeldStep>> chains_of(const CellMesh& mesh, std::vector<WeldStep> steps) {
+  const auto at = [&](int node) { return mesh.points[std::size_t(node)]; };
+  std::map<int, int> n_steps;
+  for (const auto& step : steps) {
+    ++n_steps[step.from];
+    ++n_steps[step.to];
+  }
+  std::vector<std::vector<WeldStep>> chains;
+  while (!steps.empty()) {
+    int begin = -1;
+    bool is_end = false;  // of a chain, before any node of a ring
+    for (const auto& step : steps)
+      for (const int node : {step.from, step.to}) {
+        const bool ends = n_steps[node] != 2;
+        if (begin < 0 || (ends && !is_end) || (ends == is_end && at(node) < at(begin))) {
+          begin = node;
+          is_end = ends;
+        }
+      }
+    chains.emplace_back();
+    for (int node = begin;;) {
+      const auto next = std::find_if(steps.begin(), steps.end(),
+                                     [&](const auto& step) { return step.from == node || step.to == node; });
+      if (next == steps.end()) break;
+      WeldStep step = *next;
+      steps.erase(next);
+      if (step.to == node) std::swap(step.from, step.to);
+      chains.back().push_back(step);
+      node = step.to;
+      if (n_steps[node] != 2) break;
+    }
+  }
+  return chains;
+}
+
+/// A place of a weld's toe, with the faces on both sides.
+struct ToePlace {
+  Point at{};
+  std::array<SharpSide, 2> sides{};
+};
+
+/// As far apart as a plate is thick or closer, half of that from the ends.
+std::vector<ToePlace> places_along(const CellMesh& mesh, const std::vector<WeldStep>& chain,
+                                   double thickness_m) {
+  const auto at = [&](int node) { return mesh.points[std::size_t(node)]; };
+  double length_m = 0;
+  for (const auto& step : chain) length_m += length(minus(at(step.to), at(step.from)));
+  const int n = std::max(1, int(std::ceil(length_m / thickness_m - 1e-6)));
+  std::vector<ToePlace> places;
+  double passed_m = 0;
+  for (const auto& step : chain) {
+    const Vector along_step = minus(at(step.to), at(step.from));
+    const double step_m = length(along_step);
+    for (double next_m; int(places.size()) < n &&
+                        (next_m = length_m * (double(places.size()) + 0.5) / n) <= passed_m + step_m;)
+      places.push_back({along(at(step.from), along_step, (next_m - passed_m) / step_m), step.sides});
+    passed_m += step_m;
+  }
+  return places;
+}
+
 }  // namespace
 
 PartToes place_weld_toes(const CellMesh& mesh, const std::map<int, std::string>& names, const PartWeld& weld,
@@ -98,41 +167,39 @@ PartToes place_weld_toes(const CellMesh& mesh, const std::map<int, std::string>&
                           ": no sharp inner edge is within a plate thickness of that point; give a point on "
                           "the edge");
   edge->distance_m = std::max(edge->distance_m, t);
-  PartToes toes;
-  std::vector<std::pair<Point, int>> taken;  // toe, group
-  std::map<int, int> count;
-  for (const auto& pair : sharp_sides(mesh)) {
-    const int id[] = {mesh.face_id[pair[0].face], mesh.face_id[pair[1].face]};
-    if (name_of_pair(names, id[0], id[1]) != edge->name) continue;
-    for (int k = 0; k < 2; ++k) {
-      const int* n = mesh.face(pair[k].face);
-      const Point a = mesh.points[n[pair[k].edge]], b = mesh.points[n[(pair[k].edge + 1) % 3]];
-      const Point toe = along(a, minus(b, a), 0.5);
-      if (std::any_of(taken.begin(), taken.end(), [&](const auto& other) {
-            return other.second == id[k] && length(minus(other.first, toe)) < spacing_walls * t;
-          }))
-        continue;
-      taken.emplace_back(toe, id[k]);
-      HotSpot spot{"weld " + std::to_string(number) + " toe " + std::to_string(++count[id[k]]) + " on " +
-                       names.at(id[k]),
-                   t,
-                   toe,
-                   {},
-                   {}};
-      const Vector across = across_edge(mesh, pair[k]);
-      bool is_read = true;
-      for (const auto& [walls, point] :
-           {std::pair(near_walls, &spot.near_m), std::pair(far_walls, &spot.far_m)}) {
-        const Point wanted = along(toe, across, walls * t);
-        *point = nearest_on_group(mesh, id[k], wanted);
-        is_read = is_read && length(minus(*point, wanted)) <= off_face_walls * t;
-      }
-      if (is_read)
-        toes.hot_spots.push_back(spot);
-      else
-        toes.covered.push_back(spot.name);
-    }
+  std::vector<WeldStep> steps;
+  for (const auto& sides : sharp_sides(mesh)) {
+    const int* n = mesh.face(sides[0].face);
+    const int id = mesh.face_id[sides[0].face], other_id = mesh.face_id[sides[1].face];
+    if (name_of_pair(names, id, other_id) != edge->name) continue;
+    steps.push_back({n[sides[0].edge], n[(sides[0].edge + 1) % 3], sides});
+    if (other_id < id) std::swap(steps.back().sides[0], steps.back().sides[1]);
   }
+  PartToes toes;
+  std::map<int, int> count;  // of each group
+  for (const auto& chain : chains_of(mesh, std::move(steps)))
+    for (const auto& toe : places_along(mesh, chain, t))
+      for (const auto& side : toe.sides) {
+        const int id = mesh.face_id[side.face];
+        HotSpot spot{
+            "weld " + std::to_string(number) + " toe " + std::to_string(++count[id]) + " on " + names.at(id),
+            t,
+            toe.at,
+            {},
+            {}};
+        const Vector across = across_edge(mesh, side);
+        bool is_read = true;
+        for (const auto& [walls, point] :
+             {std::pair(near_walls, &spot.near_m), std::pair(far_walls, &spot.far_m)}) {
+          const Point wanted = along(toe.at, across, walls * t);
+          *point = nearest_on_group(mesh, id, wanted);
+          is_read = is_read && length(minus(*point, wanted)) <= off_face_walls * t;
+        }
+        if (is_read)
+          toes.hot_spots.push_back(spot);
+        else
+          toes.covered.push_back(spot.name);
+      }
   return toes;
 }
 

@@ -21,9 +21,9 @@ struct PartToes {
   std::vector<std::string> covered;  ///< names of toes beside which a face ends before both points
 };
 
-/// Places along the sharp edge nearest to the point, on both of its faces, half a plate thickness apart: the
-/// toe, and the points at 0.4 and 1.0 plate thicknesses from it along the face, across the edge. The edge
-/// keeps as much out of the peak as a plate is thick.
+/// Places along the sharp edge nearest to the point, on both of its faces, at most a plate thickness apart,
+/// the same on every mesh: the toe, and the points at 0.4 and 1.0 plate thicknesses from it along the face,
+/// across the edge. The edge keeps as much out of the peak as a plate is thick.
 /// @param number  of the weld among those of the part, for the names of its toes
 /// @param edges   of the mesh (reentrant_edges); that of the weld gets its distance
 /// @throws GeometryRefused if no sharp edge is within a plate thickness of the point, or the mesh is none of

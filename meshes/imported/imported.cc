@@ -105,6 +105,9 @@ void require_one_part(const CellMesh& mesh, bool of_cad) {
   throw GeometryRefused(text.str());
 }
 
+/// Around a weld's toe, up to behind the points that its stress is extrapolated from, in plate thicknesses.
+constexpr double fine_walls = 1.2, cell_walls = 0.35;
+
 ModelMesh load(const Import& import, double scale_to_m) {
   ModelMesh model = load_apart(import, scale_to_m);
   const bool of_cad = format_of(import.geometry) == GeometryFormat::step;
@@ -244,7 +247,16 @@ auto with_name(const Import& import, Work&& work) {
 }  // namespace
 
 BodyMesh build_imported(const Import& import) {
-  return with_name(import, [&] { return build_unnamed(import); });
+  return with_name(import, [&] {
+    auto body = build_unnamed(import);
+    if (body.hot_spots.empty() || format_of(import.geometry) != GeometryFormat::step) return body;
+    // Where the welds' toes are is known by a first mesh alone.
+    Import fine = import;
+    for (const auto& spot : body.hot_spots)
+      fine.control.fine_spots.push_back(
+          {spot.toe_m, fine_walls * spot.thickness_m, cell_walls * spot.thickness_m});
+    return build_unnamed(fine);
+  });
 }
 
 ImportOutline outline_imported(const Import& import) {

@@ -126,9 +126,12 @@ StressByHarmonic::StressByHarmonic(const SolvedPressure& pressure,
   const double more = last->first * last->first - 1.0, less = before->first * before->first - 1.0;
   const auto go_on = [&](Stress from, const Stress& to) {
     if (product(from, to) < 0) from = scaled(from, -1);
-    const auto level = scaled(sum(scaled(to, more), -less, from), 1 / (more - less));
-    level_Pa_ += von_mises_Pa(level);
-    falling_Pa_ += more * von_mises_Pa(sum(to, -1, level));
+    auto level = scaled(sum(scaled(to, more), -less, from), 1 / (more - less));
+    // What falls faster, away from the seat, has no level above what was solved last.
+    const double level_Pa = von_mises_Pa(level), last_Pa = von_mises_Pa(to);
+    if (level_Pa > last_Pa) level = scaled(level, last_Pa / level_Pa);
+    level_Pa_ = std::hypot(level_Pa_, von_mises_Pa(level));
+    falling_Pa_ = std::hypot(falling_Pa_, more * von_mises_Pa(sum(to, -1, level)));
   };
   level_Pa_ = 0;
   go_on(before->second.u, last->second.u);

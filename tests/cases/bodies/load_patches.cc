@@ -6,15 +6,16 @@ using namespace cases;
 namespace {
 
 /// The stepped shaft with that contact on all its seats.
-std::string with_contact(const std::string& half_angle) {
+std::string with_contact(const std::string& half_angle, int harmonics) {
   std::string text = stepped_shaft();
   for (const std::string port : {"left", "gear", "right"})
-    text += "[shaft.pressure." + port + "]\nhalf_angle = \"" + half_angle + " deg\"\nharmonics = 4\n";
+    text += "[shaft.pressure." + port + "]\nhalf_angle = \"" + half_angle +
+            " deg\"\nharmonics = " + std::to_string(harmonics) + "\n";
   return text;
 }
 
-nlohmann::json peak_of(const fs::path& directory, const std::string& half_angle) {
-  write(directory / (half_angle + ".toml"), with_contact(half_angle));
+nlohmann::json peak_of(const fs::path& directory, const std::string& half_angle, int harmonics = 4) {
+  write(directory / (half_angle + ".toml"), with_contact(half_angle, harmonics));
   const auto run = millstress(directory, "run " + half_angle + ".toml -o " + half_angle);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   return run.exit_code == 0 ? summary(directory / half_angle)["bodies"]["shaft"]["peak_von_mises"]
@@ -37,7 +38,10 @@ TEST(LoadPatches, EntryIsTheDifferenceOfRunsWithOtherContacts) {
   EXPECT_GT(wanted, 1e-4 * peak);  // else the comparison shows nothing
   const double entry = here["error"]["load_patches"].get<double>();
   EXPECT_GE(entry, wanted * (1 - 1e-6));
-  EXPECT_LE(entry, wanted + 2e-3 * peak);  // of solid seats and fillets of 3 mm
+  // The narrow pattern has most above the fourth; their bound is at most ten times what they bring.
+  const double above_Pa = std::abs(peak_of(directory.path, "60", 12)["value"].get<double>() -
+                                   narrow["value"].get<double>());
+  EXPECT_LE(entry, wanted + 10 * above_Pa);
   const auto method = here["error"]["methods"]["load_patches"].get<std::string>();
   EXPECT_NE(method.find("120 to 200 degrees in all: from "), std::string::npos) << method;
   // A model error: no finer mesh mends it.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <vector>
 
 using namespace pipelines;
 
@@ -79,11 +80,23 @@ PressureModel model_of(double half_angle_rad, int highest, HalfAngles range) {
 }
 
 /// What harmonics above the fourth bring, which are not solved: the third has 1 Pa per newton and
-/// coefficient, the fourth 0.5; it falls faster than 1 / (n^2 - 1), so that nothing is left far out.
+/// coefficient, the fourth 0.5, and A / (n^2 - 1) + B goes on from both; B times the largest pressure that
+/// these harmonics make.
 double above_fourth_Pa(double half_angle_rad) {
-  double sum = 0;
-  for (int n = 5; n < 200; ++n) sum += std::abs(coefficient(half_angle_rad, n)) * 0.5 * 15 / (n * n - 1.0);
-  return sum * force_N[1];
+  constexpr double level = (0.5 * 15 - 1.0 * 8) / (15 - 8), falling = (0.5 - level) * 15;
+  constexpr int n_terms = 200, n_places = 400;
+  std::vector<double> c;
+  double sum = 0, most = 0;
+  for (int n = 5; n < n_terms; ++n) {
+    c.push_back(coefficient(half_angle_rad, n));
+    sum += std::abs(c.back()) * falling / (n * n - 1.0);
+  }
+  for (int i = 0; i <= n_places; ++i) {
+    double pressure = 0;
+    for (int n = 5; n < n_terms; ++n) pressure += c[std::size_t(n - 5)] * std::cos(n * M_PI * i / n_places);
+    most = std::max(most, std::abs(pressure));
+  }
+  return (sum + std::abs(level) * most) * force_N[1];
 }
 
 }  // namespace
