@@ -182,14 +182,18 @@ const meshes::SharpEdge* edge_beside_peak(const BodyAnalysis& analysis) {
   if (nearest == nullptr) return nullptr;
   if (distance_m(analysis.peak.position_m, *nearest) < beside * nearest->distance_m) return nearest;
   const auto& nodes = analysis.responses.nodes;
-  const auto is_higher_within = [&](std::int32_t node) {
+  // Of tetrahedra larger than what is left out the peak may lie in the middle of one that reaches to the
+  // edge.
+  const bool of_tetrahedra = nodes.shape().is_tetrahedron();
+  const auto rises_to = [&](std::int32_t node) {
     return analysis.places.excluded[std::size_t(node)] != 0 &&
-           analysis.envelope.von_mises.value_Pa[std::size_t(node)] > analysis.peak.value_Pa;
+           (of_tetrahedra ||
+            analysis.envelope.von_mises.value_Pa[std::size_t(node)] > analysis.peak.value_Pa);
   };
   for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
     const auto face = nodes.face(f);
     if (std::find(face.begin(), face.end(), std::int32_t(analysis.peak.node)) != face.end() &&
-        std::any_of(face.begin(), face.end(), is_higher_within))
+        std::any_of(face.begin(), face.end(), rises_to))
       return nearest;
   }
   return nullptr;
