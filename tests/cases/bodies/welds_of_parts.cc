@@ -1,6 +1,9 @@
 // Welds of a user's own part: hot-spot stress where the scene calls a sharp inner edge a weld.
 #include <gmsh.h>
 
+#include <iterator>
+#include <map>
+
 #include "tests/cases/program/program.h"
 #include "tests/cases/program/step_shafts.h"
 
@@ -47,10 +50,10 @@ box = { low = ["-51 mm", "-0.1 mm", "-1 mm"], high = ["51 mm", "0.1 mm", "41 mm"
 
 }  // namespace
 
-// The plate beside the weld bends as a beam: 6 F a / (b t^2) at the toe, a straight line up to it. It ends on
-// a plate of its own thickness, which gives way: at 0.4 t the surface has 4 % less than a clamped beam, the
-// extrapolation 6 % less. Turns red: toes of the base (half of it), the stress beside the corner (a third
-// more).
+// The plate beside the weld bends as a beam: 6 F a / (b t^2) at the toe, a straight line up to it. On a plate
+// three times as wide as thick that is the mean over its width: the middle has more, since it cannot become
+// narrower, the rims less (CalculiX on cells of 2 mm, extrapolated alike: 159 and 150 MPa). Turns red: toes
+// of the base (half of it), the stress beside the corner (a third more).
 TEST(WeldsOfParts, HotSpotIsTheBendingOfThePlate) {
   const results_test::Directory directory;
   tee(directory.path, R"(
@@ -62,14 +65,16 @@ thickness = "12 mm"
   const auto run = millstress(directory.path, "run tee.toml -o r --tolerance none");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto body = summary(directory / "r")["bodies"]["part"];
-  const auto& first = body["hot_spots"][0];
   const double bending_Pa = 6 * force_N * arm_mm / (width_mm * plate_mm * plate_mm) * 1e6;
-  EXPECT_NEAR(first["normal_max_Pa"].get<double>(), bending_Pa, 0.08 * bending_Pa) << first;
-  // All along the edge it is the same.
-  int n_on_upright = 0;
+  std::map<double, double> upright_Pa;  // by place along the weld
   for (const auto& spot : body["hot_spots"])
-    if (std::abs(spot["normal_max_Pa"].get<double>() - bending_Pa) < 0.08 * bending_Pa) ++n_on_upright;
-  EXPECT_EQ(n_on_upright, 4);
+    if (spot["name"].get<std::string>().find("plane x = -6 mm") != std::string::npos)
+      upright_Pa[spot["position_m"][2]] = spot["normal_max_Pa"];
+  ASSERT_EQ(upright_Pa.size(), 4U);
+  double mean_Pa = 0;
+  for (const auto& [z_m, value_Pa] : upright_Pa) mean_Pa += value_Pa / 4;
+  EXPECT_NEAR(mean_Pa, bending_Pa, 0.05 * bending_Pa);
+  EXPECT_GT(std::next(upright_Pa.begin())->second, upright_Pa.begin()->second) << "the middle has more";
   EXPECT_TRUE(fs::exists(directory / "r/part/hot_spots.csv"));
 }
 
