@@ -54,6 +54,7 @@ struct BodyScene {
   BodyShape shape;
   fem::Material material;
   std::string material_name;
+  std::string strength_source;  ///< "S355J2, up to 16 mm, EN 10025-2"; empty: the scene gives the strengths
   double yield_strength_Pa = 0;
   int pressure_harmonics = 4;                      ///< where `pressures` has no entry
   std::map<std::string, PressureModel> pressures;  ///< by port
@@ -66,9 +67,12 @@ struct BodyScene {
       2;  ///< of the polynomials in a cell (fem::Body); 2 in every scene, accuracy studies take 1 and 3 too
   /// Cells cut into eight after meshing, cycle after cycle (fem::Body): a search chooses them.
   std::vector<fem::RefinementCycle> refinements;
-  std::optional<FatigueScene> fatigue;  ///< where the scene asks for it
-  int natural_frequencies = 0;          ///< how many to compute and compare with the loads; 0: none
-  std::string difference_port;          ///< carries what the load stage's masses and the mesh's differ by
+  std::optional<FatigueScene> fatigue;  ///< none: fatigue_off, or fatigue_missing says why
+  bool fatigue_off = false;             ///< switched off by the scene: `fatigue = "off"`
+  /// Why fatigue is not judged, with the two lines that add what is missing; empty if judged or switched off.
+  std::string fatigue_missing;
+  int natural_frequencies = 0;  ///< how many to compute and compare with the loads; 0: none
+  std::string difference_port;  ///< carries what the load stage's masses and the mesh's differ by
 
   /// Places where a search found that stress grows without bound: kept out of the peak like sharp edges.
   std::vector<meshes::SharpEdge> singular;
