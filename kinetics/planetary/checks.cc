@@ -35,10 +35,10 @@ std::vector<std::string> charge_effects() {
 
 void check_charge(const PlanetaryMill& mill, const std::vector<std::string>& effects) {
   const auto users = charge_effects();
-  check_used("drum_length_m", mill.drum_length_m, users, effects, "the inner length of the drum");
-  check_used("charge.bulk_density_kg_m3", mill.charge.bulk_density_kg_m3, users, effects,
+  check_used("drum_length", mill.drum_length_m, users, effects, "the inner length of the drum");
+  check_used("charge.bulk_density", mill.charge.bulk_density_kg_m3, users, effects,
              "the bulk density of the charge");
-  require_finite("charge.segment_angle_rad", mill.charge.segment_angle_rad);
+  require_finite("charge.segment_angle", mill.charge.segment_angle_rad);
   const bool in_use =
       std::any_of(users.begin(), users.end(), [&](const auto& user) { return contains(effects, user); });
   if (in_use || mill.charge.filling || mill.charge.void_fraction || mill.charge.half_angle_rad)
@@ -54,7 +54,7 @@ void check_belt(const PlanetaryBelt& belt) {
     require_positive("belt.friction", eytelwein->friction, "the friction of belt on pulley");
   } else {
     const auto& pretensioned = std::get<PretensionedBelt>(belt);
-    require_not_negative("belt.pretension_N", pretensioned.pretension_N, "the pretension of one strand");
+    require_not_negative("belt.pretension", pretensioned.pretension_N, "the pretension of one strand");
     require_positive("belt.friction", pretensioned.friction, "the friction of belt on pulley");
   }
 }
@@ -93,13 +93,13 @@ void check_effects(PlanetaryConvention convention, const std::vector<std::string
 }
 
 void check_parameters(const PlanetaryMill& mill, const std::vector<std::string>& effects) {
-  require_not_negative("gravity_m_s2", mill.gravity_m_s2, "the acceleration of gravity, 9.81");
-  require_positive("speed_rad_s", mill.speed_rad_s,
+  require_not_negative("gravity", mill.gravity_m_s2, "the acceleration of gravity, 9.81");
+  require_positive("speed", mill.speed_rad_s,
                    "the carrier's speed; it turns counter-clockwise by convention: mirror the machine");
-  require_finite("initial_angle_rad", mill.initial_angle_rad);
-  require_finite("initial_drum_angle_rad", mill.initial_drum_angle_rad);
-  require_positive("drum_radius_m", mill.drum_radius_m, "the inner radius of the drum");
-  check_used("drum_mass_kg", mill.drum_mass_kg, {"drum_transport", "drum_gravity"}, effects,
+  require_finite("initial_angle", mill.initial_angle_rad);
+  require_finite("initial_drum_angle", mill.initial_drum_angle_rad);
+  require_positive("drum_radius", mill.drum_radius_m, "the inner radius of the drum");
+  check_used("drum_mass", mill.drum_mass_kg, {"drum_transport", "drum_gravity"}, effects,
              "the mass of shell, covers and pulley");
   planetary_geometry(mill);
   check_charge(mill, effects);

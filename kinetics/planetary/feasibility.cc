@@ -14,7 +14,7 @@ constexpr double touching = 1e-12;  // relative: pulleys that touch by design ar
 std::string given(const PlanetaryMill& mill) {
   if (const auto* ratios = std::get_if<PlanetaryRatios>(&mill.geometry))
     return "geometry.k = " + number(ratios->k) + ", geometry.c = " + number(ratios->c) + ": ";
-  return "geometry.carrier_m = " + number(std::get<PlanetaryLengths>(mill.geometry).carrier_m) + ": ";
+  return "geometry.carrier_length = " + number(std::get<PlanetaryLengths>(mill.geometry).carrier_m) + ": ";
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ std::vector<std::string> check_feasibility(const PlanetaryMill& mill) {
                        "the pulleys overlap in their plane; l_OA must be at least r_O + r_A = " +
                        number(pulleys_m) + " m, k at most c / (1 + 2c)");
   if (g.carrier_m <= mill.drum_radius_m)
-    findings.push_back(given(mill) + "opposite drums overlap; l_OA must exceed drum_radius_m = " +
+    findings.push_back(given(mill) + "opposite drums overlap; l_OA must exceed drum_radius = " +
                        number(mill.drum_radius_m) + ", (1 - k) / k must exceed b");
   if (consistent && !findings.empty()) throw MachineRefused(findings.front());
   for (std::string& finding : findings) finding = "this machine cannot be built: " + finding;

@@ -31,7 +31,7 @@ PlanetaryGeometry from(const PlanetaryRatios& ratios, double drum_radius_m) {
   if (ratios.k >= 1) refuse("geometry.k", ratios.k, "must be below 1: k = r_A / (l_OA + r_A)");
   require_positive_geometry("geometry.b", ratios.b);
   require_positive_geometry("geometry.c", ratios.c);
-  require_positive_geometry("drum_radius_m", drum_radius_m);
+  require_positive_geometry("drum_radius", drum_radius_m);
   const double d_over_rA = (1 - ratios.c) / ratios.c;
   PlanetaryGeometry g;
   g.drum_pulley_m = drum_radius_m / ratios.b;                   // (7)
@@ -44,9 +44,9 @@ PlanetaryGeometry from(const PlanetaryRatios& ratios, double drum_radius_m) {
 }
 
 PlanetaryGeometry from(const PlanetaryLengths& lengths) {
-  require_positive_geometry("geometry.carrier_m", lengths.carrier_m);
-  require_positive_geometry("geometry.central_pulley_m", lengths.central_pulley_m);
-  require_positive_geometry("geometry.drum_pulley_m", lengths.drum_pulley_m);
+  require_positive_geometry("geometry.carrier_length", lengths.carrier_m);
+  require_positive_geometry("geometry.central_pulley_radius", lengths.central_pulley_m);
+  require_positive_geometry("geometry.drum_pulley_radius", lengths.drum_pulley_m);
   const double difference_m = lengths.central_pulley_m - lengths.drum_pulley_m;
   PlanetaryGeometry g;
   g.carrier_m = lengths.carrier_m;
@@ -67,7 +67,7 @@ void require_within(const std::string& parameter, double value, double most, con
 planetary::Segment segment(const PlanetaryCharge& charge) {
   if (bool(charge.filling) + bool(charge.void_fraction) + bool(charge.half_angle_rad) != 1)
     throw MachineRefused(
-        std::string("charge: of filling, void_fraction and half_angle_rad ") +
+        std::string("charge: of filling, void_fraction and half_angle ") +
         (charge.filling || charge.void_fraction || charge.half_angle_rad ? "more than one is" : "none is") +
         " given; give exactly one of them");
   if (charge.filling) {
@@ -79,7 +79,7 @@ planetary::Segment segment(const PlanetaryCharge& charge) {
                    "the empty share of the drum's cross-section");
     return planetary::segment_of_void(*charge.void_fraction);
   }
-  require_within("charge.half_angle_rad", *charge.half_angle_rad, pi,
+  require_within("charge.half_angle", *charge.half_angle_rad, pi,
                  "half the angle that the charge's surface spans, in rad");
   return planetary::segment_of_half_angle(*charge.half_angle_rad);
 }

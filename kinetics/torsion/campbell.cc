@@ -26,12 +26,11 @@ std::vector<ExcitationLine> lines_of(const DriveTrain& train, const torsion::Red
 
 CampbellTable campbell_table(const DriveTrain& train, double slowest_rad_s, double fastest_rad_s,
                              int n_speeds, const std::vector<double>& orders) {
-  require_finite("slowest_rad_s", slowest_rad_s);
-  require_finite("fastest_rad_s", fastest_rad_s);
-  if (slowest_rad_s < 0)
-    refuse("slowest_rad_s", slowest_rad_s, "must not be negative; give a range of speeds");
+  require_finite("slowest", slowest_rad_s);
+  require_finite("fastest", fastest_rad_s);
+  if (slowest_rad_s < 0) refuse("slowest", slowest_rad_s, "must not be negative; give a range of speeds");
   if (fastest_rad_s <= slowest_rad_s)
-    refuse("fastest_rad_s", fastest_rad_s, "must exceed slowest_rad_s = " + number(slowest_rad_s));
+    refuse("fastest", fastest_rad_s, "must exceed slowest = " + number(slowest_rad_s));
   if (n_speeds < 2) refuse("n_speeds", n_speeds, "must be at least 2; the range has two ends");
   const torsion::ReducedTrain reduced = torsion::reduce(train);
   CampbellTable table;

@@ -44,7 +44,7 @@ ArrayXd viscous_stand_in(const DriveTrain& train, const ReducedTrain& reduced, c
   if (!(run.loss_frequency_rad_s > 0) || !std::isfinite(run.loss_frequency_rad_s)) {
     const auto lossy = std::find_if(train.elements.begin(), train.elements.end(),
                                     [](const TrainElement& e) { return e.loss_factor != 0; });
-    refuse("loss_frequency_rad_s", run.loss_frequency_rad_s,
+    refuse("loss_frequency", run.loss_frequency_rad_s,
            "must be positive: " + lossy->name +
                " has a loss factor, which in time is viscous damping fitted at one "
                "frequency; give the frequency that dominates");
@@ -147,8 +147,8 @@ Transient transient(const DriveTrain& train, const TransientRun& run) {
                                  viscous_stand_in(train, reduced, run), run.time_step_s);
   const Torques torques(train, reduced, run);
   StepState state;
-  state.angle = initial(train, reduced, "angle_rad", run.angle_rad);
-  state.speed = initial(train, reduced, "speed_rad_s", run.speed_rad_s);
+  state.angle = initial(train, reduced, "angle", run.angle_rad);
+  state.speed = initial(train, reduced, "speed", run.speed_rad_s);
   state.twist = state.rate = ArrayXd::Zero(reduced.n_edges());
   for (Index e = 0; e < reduced.n_edges(); ++e) {
     state.twist[e] = state.angle[reduced.edges[e].first] - state.angle[reduced.edges[e].second];
@@ -172,17 +172,17 @@ Transient transient(const DriveTrain& train, const TransientRun& run) {
 
 std::function<double(double)> torque_step(double start_s, double torque_Nm) {
   require_finite("start_s", start_s);
-  require_finite("torque_Nm", torque_Nm);
+  require_finite("torque", torque_Nm);
   return [=](double time_s) { return time_s < start_s ? 0 : torque_Nm; };
 }
 
 std::function<double(double)> torque_table(std::vector<double> time_s, std::vector<double> torque_Nm) {
   if (time_s.empty() || time_s.size() != torque_Nm.size())
     refuse("number of entries of time_s", double(time_s.size()),
-           "must equal that of torque_Nm, " + number(double(torque_Nm.size())) + ", and not be zero");
+           "must equal that of torque, " + number(double(torque_Nm.size())) + ", and not be zero");
   for (std::size_t i = 0; i < time_s.size(); ++i) {
     require_finite("time_s", time_s[i]);
-    require_finite("torque_Nm", torque_Nm[i]);
+    require_finite("torque", torque_Nm[i]);
     if (i > 0 && time_s[i] <= time_s[i - 1])
       refuse("time_s", time_s[i], "must exceed " + number(time_s[i - 1]));
   }

@@ -28,27 +28,27 @@ void require_name(const std::string& what, const std::string& name, std::set<std
 
 void check_shaft_data(const TrainElement& e) {
   const std::string name = e.name + ".";
-  require_not_negative(name + "diameter_m", e.diameter_m, "the shaft's outer diameter");
-  require_not_negative(name + "bore_m", e.bore_m, "the shaft's inner diameter");
+  require_not_negative(name + "diameter", e.diameter_m, "the shaft's outer diameter");
+  require_not_negative(name + "bore", e.bore_m, "the shaft's inner diameter");
   if (e.bore_m > 0 && e.bore_m >= e.diameter_m)
-    refuse(name + "bore_m", e.bore_m, "must be smaller than diameter_m = " + number(e.diameter_m));
+    refuse(name + "bore", e.bore_m, "must be smaller than diameter = " + number(e.diameter_m));
   require_finite(name + "stress_concentration", e.stress_concentration);
   if (e.stress_concentration < 1)
     refuse(name + "stress_concentration", e.stress_concentration,
            "must be at least 1: the nominal stress times K_t is the peak");
   if (e.rigid || e.stiffness_N_m_rad) return;
-  require_positive(name + "shear_modulus_Pa", e.shear_modulus_Pa, "stiffness_N_m_rad or the shear modulus");
-  require_positive(name + "length_m", e.length_m, "stiffness_N_m_rad or the segment's length");
-  require_positive(name + "diameter_m", e.diameter_m, "stiffness_N_m_rad or the shaft's diameter");
+  require_positive(name + "shear_modulus", e.shear_modulus_Pa, "stiffness or the shear modulus");
+  require_positive(name + "length", e.length_m, "stiffness or the segment's length");
+  require_positive(name + "diameter", e.diameter_m, "stiffness or the shaft's diameter");
 }
 
 void check_transmission(const DriveTrain& train, const TrainElement& e) {
   if (e.diameter_m != 0 || e.bore_m != 0)
-    refuse(e.name + ".diameter_m", e.diameter_m,
+    refuse(e.name + ".diameter", e.diameter_m,
            "belts and gears have no shear stress of a shaft; give the diameter to a shaft segment");
   if (e.rigid) return;
   if (!e.stiffness_N_m_rad)
-    throw MachineRefused(e.name + ".stiffness_N_m_rad: missing; give it, or say that it is rigid");
+    throw MachineRefused(e.name + ".stiffness: missing; give it, or say that it is rigid");
   const std::string& first = train.inertias[inertia_at(train, e.first, e.name + ".first")].shaft;
   const std::string& second = train.inertias[inertia_at(train, e.second, e.name + ".second")].shaft;
   if (e.stiffness_on != first && e.stiffness_on != second)
@@ -67,9 +67,9 @@ void check_element(const DriveTrain& train, const TrainElement& e) {
   if (e.kind == ElementKind::shaft && e.ratio != 1)
     refuse(name + "ratio", e.ratio, "a shaft has one speed; make it a belt or gear, or take the ratio out");
   if (e.stiffness_N_m_rad)
-    require_positive(name + "stiffness_N_m_rad", *e.stiffness_N_m_rad,
+    require_positive(name + "stiffness", *e.stiffness_N_m_rad,
                      "the torsional stiffness, or say that the element is rigid");
-  require_not_negative(name + "damping_N_m_s", e.damping_N_m_s, "the viscous damping");
+  require_not_negative(name + "damping", e.damping_N_m_s, "the viscous damping");
   require_not_negative(name + "loss_factor", e.loss_factor, "the structural loss factor");
   if (e.rigid && (e.stiffness_N_m_rad || e.damping_N_m_s != 0 || e.loss_factor != 0))
     throw MachineRefused(name + "rigid: a rigid element has no stiffness and no damping; take them out");
@@ -81,12 +81,12 @@ void check_rhythm(const DriveTrain& train, const std::string& name,
                   const std::optional<double>& frequency_rad_s, const std::optional<double>& order,
                   const std::string& order_of) {
   if (bool(frequency_rad_s) == bool(order))
-    throw MachineRefused(name + ": frequency_rad_s and order are " + (order ? "both given" : "both missing") +
+    throw MachineRefused(name + ": frequency and order are " + (order ? "both given" : "both missing") +
                          "; it needs exactly one of them");
   if (frequency_rad_s)
-    require_positive(name + ".frequency_rad_s", *frequency_rad_s, "a constant part as constant_Nm");
+    require_positive(name + ".frequency", *frequency_rad_s, "a constant torque by its key constant");
   if (!order) return;
-  require_positive(name + ".order", *order, "a constant part as constant_Nm");
+  require_positive(name + ".order", *order, "a constant torque by its key constant");
   const auto on_it = [&](const TrainInertia& i) { return order_of.empty() || i.shaft == order_of; };
   if (std::any_of(train.inertias.begin(), train.inertias.end(), on_it)) return;
   std::vector<std::string> shafts;
@@ -113,8 +113,8 @@ void check_parameters(const DriveTrain& train) {
   const TrainInertia* held = nullptr;
   for (const TrainInertia& inertia : train.inertias) {
     require_name("an inertia", inertia.name, taken);
-    require_not_negative(inertia.name + ".inertia_kg_m2", inertia.inertia_kg_m2, "the inertia");
-    require_not_negative(inertia.name + ".damping_N_m_s", inertia.damping_N_m_s, "the viscous damping");
+    require_not_negative(inertia.name + ".inertia", inertia.inertia_kg_m2, "the inertia");
+    require_not_negative(inertia.name + ".damping", inertia.damping_N_m_s, "the viscous damping");
     if (inertia.held && held)
       throw MachineRefused(inertia.name + ".held: " + held->name +
                            " is held too, so that statics cannot tell the mean torque between them; "
@@ -123,8 +123,7 @@ void check_parameters(const DriveTrain& train) {
   }
   for (const TrainElement& e : train.elements) require_name("an element", e.name, taken);
   for (const TrainElement& e : train.elements) check_element(train, e);
-  require_positive("reference_speed_rad_s", train.reference_speed_rad_s,
-                   "the mean speed of the reference shaft");
+  require_positive("reference_speed", train.reference_speed_rad_s, "the mean speed of the reference shaft");
   require_not_negative("modal_damping_ratio", train.modal_damping_ratio, "the damping ratio of the modes");
 }
 
@@ -134,16 +133,16 @@ void check_excitations(const DriveTrain& train) {
   for (const TrainExcitation& x : train.excitations) {
     require_name("an excitation", x.name, taken);
     inertia_at(train, x.inertia, x.name + ".inertia");
-    require_finite(x.name + ".constant_Nm", x.constant_Nm);
+    require_finite(x.name + ".constant", x.constant_Nm);
     for (std::size_t k = 0; k < x.harmonics.size(); ++k) {
       const TorqueHarmonic& h = x.harmonics[k];
       const std::string name = x.name + ".harmonic_" + std::to_string(k + 1);
-      require_finite(name + ".amplitude_Nm", h.amplitude_Nm);
-      require_finite(name + ".phase_rad", h.phase_rad);
+      require_finite(name + ".amplitude", h.amplitude_Nm);
+      require_finite(name + ".phase", h.phase_rad);
       check_rhythm(train, name, h.frequency_rad_s, h.order, h.order_of);
     }
     if (x.table.torque_Nm.empty()) continue;
-    for (const double torque_Nm : x.table.torque_Nm) require_finite(x.name + ".table.torque_Nm", torque_Nm);
+    for (const double torque_Nm : x.table.torque_Nm) require_finite(x.name + ".table.torque", torque_Nm);
     check_rhythm(train, x.name + ".table", x.table.frequency_rad_s, x.table.order, x.table.order_of);
   }
 }

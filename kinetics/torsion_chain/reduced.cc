@@ -136,7 +136,7 @@ ReducedTrain reduce(const DriveTrain& train) {
 
   for (Index i = 0; i < n; ++i)
     if (!(reduced.inertia[reduced.node_of[i]] > 0))
-      refuse(train.inertias[i].name + ".inertia_kg_m2", train.inertias[i].inertia_kg_m2,
+      refuse(train.inertias[i].name + ".inertia", train.inertias[i].inertia_kg_m2,
              "must be positive where no rigid element joins it to an inertia: write 1e-12, which vibrates so "
              "fast by itself that nothing else feels it");
 

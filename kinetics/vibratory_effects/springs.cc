@@ -38,7 +38,7 @@ std::vector<Spring> with_preloads(const VibratoryMill& mill, const std::vector<s
       std::count_if(springs.begin(), springs.end(), [](const Spring& s) { return bool(s.preload_N); });
   if (given == std::ptrdiff_t(springs.size())) return springs;
   if (given > 0)
-    refuse("springs with preload_N", double(given),
+    refuse("springs with preload", double(given),
            "of " + number(double(springs.size())) +
                " springs; give the preload of all of them, or of none: then it is the static balance of the "
                "weights");
@@ -51,17 +51,17 @@ std::vector<Spring> with_preloads(const VibratoryMill& mill, const std::vector<s
     reach_m = std::max(reach_m, std::abs(x_m));
   }
   if (k <= 0 && weights.force_N != 0)
-    refuse("sum of springs' stiffness_N_m.y", k,
+    refuse("sum of the springs' vertical stiffness", k,
            "cannot carry the weights of " + number(weights.force_N) +
-               " N; give vertical stiffness, or give every spring its preload_N");
+               " N; give vertical stiffness, or give every spring its preload");
   const double rotary = k > 0 ? kxx - kx * kx / k : 0;  // about the springs' own centre
   const double centre_m = k > 0 ? kx / k : 0;
   const double excess_Nm = weights.moment_Nm - weights.force_N * centre_m;
   const bool on_one_vertical = rotary <= 1e-12 * k * reach_m * reach_m;
   if (on_one_vertical && std::abs(excess_Nm) > 1e-9 * std::abs(weights.force_N) * std::max(reach_m, 1e-3))
-    refuse("springs' position_m.x", centre_m,
+    refuse("x of the springs' position", centre_m,
            "springs on one vertical cannot balance the weights' moment of " + number(excess_Nm) +
-               " N m about it; place the springs apart, or give every spring its preload_N");
+               " N m about it; place the springs apart, or give every spring its preload");
   const double slope = on_one_vertical ? 0 : excess_Nm / rotary;
   for (Spring& spring : springs) {
     const double drop_m = (k > 0 ? weights.force_N / k : 0) + slope * (spring.position_m.x() - centre_m);

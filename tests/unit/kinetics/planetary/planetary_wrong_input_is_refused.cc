@@ -60,22 +60,22 @@ bool warned(const PlanetaryMill& mill, const std::string& of) {
 
 TEST(PlanetaryWrongInput, Parameters) {
   expect_refused({
-      {[](auto& m) { m.gravity_m_s2 = -9.81; }, {}, {"gravity_m_s2 = -9.81", "must not be negative"}},
-      {[](auto& m) { m.speed_rad_s = 0; }, {}, {"speed_rad_s = 0", "must be positive", "mirror"}},
-      {[](auto& m) { m.speed_rad_s = infinite; }, {}, {"speed_rad_s = inf", "finite"}},
-      {[](auto& m) { m.initial_angle_rad = not_a_number; }, {}, {"initial_angle_rad = nan"}},
-      {[](auto& m) { m.initial_drum_angle_rad = infinite; }, {}, {"initial_drum_angle_rad = inf"}},
-      {[](auto& m) { m.drum_radius_m = 0; }, {}, {"drum_radius_m = 0", "must be positive"}},
-      {[](auto& m) { m.drum_length_m = -1; }, {}, {"drum_length_m = -1"}},
-      {[](auto& m) { m.drum_length_m = 0; }, {"charge_gravity"}, {"drum_length_m = 0", "charge_gravity"}},
-      {[](auto& m) { m.drum_mass_kg = -1; }, {}, {"drum_mass_kg = -1"}},
-      {[](auto& m) { m.drum_mass_kg = 0; }, {"drum_gravity"}, {"drum_mass_kg = 0", "drum_gravity"}},
-      {[](auto& m) { m.drum_mass_kg = 0; }, {"drum_transport"}, {"drum_mass_kg = 0", "drum_transport"}},
+      {[](auto& m) { m.gravity_m_s2 = -9.81; }, {}, {"gravity = -9.81", "must not be negative"}},
+      {[](auto& m) { m.speed_rad_s = 0; }, {}, {"speed = 0", "must be positive", "mirror"}},
+      {[](auto& m) { m.speed_rad_s = infinite; }, {}, {"speed = inf", "finite"}},
+      {[](auto& m) { m.initial_angle_rad = not_a_number; }, {}, {"initial_angle = nan"}},
+      {[](auto& m) { m.initial_drum_angle_rad = infinite; }, {}, {"initial_drum_angle = inf"}},
+      {[](auto& m) { m.drum_radius_m = 0; }, {}, {"drum_radius = 0", "must be positive"}},
+      {[](auto& m) { m.drum_length_m = -1; }, {}, {"drum_length = -1"}},
+      {[](auto& m) { m.drum_length_m = 0; }, {"charge_gravity"}, {"drum_length = 0", "charge_gravity"}},
+      {[](auto& m) { m.drum_mass_kg = -1; }, {}, {"drum_mass = -1"}},
+      {[](auto& m) { m.drum_mass_kg = 0; }, {"drum_gravity"}, {"drum_mass = 0", "drum_gravity"}},
+      {[](auto& m) { m.drum_mass_kg = 0; }, {"drum_transport"}, {"drum_mass = 0", "drum_transport"}},
       {[](auto& m) { m.charge.bulk_density_kg_m3 = 0; },
        {"charge_offset"},
-       {"charge.bulk_density_kg_m3 = 0", "charge_offset"}},
-      {[](auto& m) { m.charge.bulk_density_kg_m3 = not_a_number; }, {}, {"charge.bulk_density_kg_m3 = nan"}},
-      {[](auto& m) { m.charge.segment_angle_rad = infinite; }, {}, {"charge.segment_angle_rad = inf"}},
+       {"charge.bulk_density = 0", "charge_offset"}},
+      {[](auto& m) { m.charge.bulk_density_kg_m3 = not_a_number; }, {}, {"charge.bulk_density = nan"}},
+      {[](auto& m) { m.charge.segment_angle_rad = infinite; }, {}, {"charge.segment_angle = inf"}},
       {[](auto& m) { ratios(m).k = 1; }, {}, {"geometry.k = 1", "below 1"}},
       {[](auto& m) { ratios(m).k = 0; }, {}, {"geometry.k = 0", "positive"}},
       {[](auto& m) { ratios(m).b = -1; }, {}, {"geometry.b = -1"}},
@@ -84,17 +84,17 @@ TEST(PlanetaryWrongInput, Parameters) {
          m.geometry = PlanetaryLengths{0, 0.2, 0.1};
        },
        {},
-       {"geometry.carrier_m = 0"}},
+       {"geometry.carrier_length = 0"}},
       {[](auto& m) {
          m.geometry = PlanetaryLengths{1, -0.2, 0.1};
        },
        {},
-       {"geometry.central_pulley_m = -0.2"}},
+       {"geometry.central_pulley_radius = -0.2"}},
       {[](auto& m) {
          m.geometry = PlanetaryLengths{1, 0.2, 0};
        },
        {},
-       {"geometry.drum_pulley_m = 0"}},
+       {"geometry.drum_pulley_radius = 0"}},
   });
 }
 
@@ -113,7 +113,7 @@ TEST(PlanetaryWrongInput, Filling) {
       {give(1.1, {}, {}), on, {"charge.filling = 1.1", "between 0 and 1"}},
       {give(not_a_number, {}, {}), on, {"charge.filling = nan"}},
       {give({}, -0.1, {}), on, {"charge.void_fraction = -0.1"}},
-      {give({}, {}, 90.0), on, {"charge.half_angle_rad = 90", "3.14159", "rad"}},
+      {give({}, {}, 90.0), on, {"charge.half_angle = 90", "3.14159", "rad"}},
   });
   auto mill = machines::printed_planetary();
   mill.charge = {};
@@ -129,7 +129,7 @@ TEST(PlanetaryWrongInput, Belt) {
          m.belt = kinetics::PretensionedBelt{-1, 0.3};
        },
        {},
-       {"belt.pretension_N = -1"}},
+       {"belt.pretension = -1"}},
       {[](auto& m) {
          m.belt = kinetics::PretensionedBelt{1, 0};
        },
@@ -170,12 +170,12 @@ TEST(PlanetaryWrongInput, MachinesThatCannotBeBuilt) {
          m.geometry = PlanetaryLengths{0.29, 0.2, 0.1};
        },
        {},
-       {"geometry.carrier_m = 0.29", "pulleys overlap", "0.3 m"}},
+       {"geometry.carrier_length = 0.29", "pulleys overlap", "0.3 m"}},
       {[](auto& m) {
          m.geometry = PlanetaryLengths{0.1, 0.02, 0.01};
        },
        {},
-       {"geometry.carrier_m = 0.1", "drum_radius_m = 0.1"}},
+       {"geometry.carrier_length = 0.1", "drum_radius = 0.1"}},
       {[](auto& m) { m.belt_beyond_geometry = true; }, {}, {"belt.beyond_geometry", "as_plotted"}},
   });
 }
