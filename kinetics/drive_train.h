@@ -226,7 +226,9 @@ struct ResonanceMargin {
   Eigen::Index mode = 0;  ///< column of NaturalModes
   double natural_frequency_rad_s = 0;
   double margin = 0;         ///< frequency / natural frequency - 1: negative below the resonance
-  double amplification = 0;  ///< undamped, 1 / |1 - (frequency / natural frequency)^2|
+  double damping_ratio = 0;  ///< of the mode, from all kinds of damping; 0: nothing damps it
+  /// With that damping: 1 / |1 - r^2 + 2 i zeta r|, r = frequency / natural frequency, as warnings state it.
+  double amplification = 0;
 };
 
 /// One margin per excitation frequency at the mean speed, closest first.

@@ -15,6 +15,11 @@ std::string both_units(double frequency_rad_s, int digits) {
   return rounded(frequency_rad_s, digits) + " rad/s (" + rounded(frequency_rad_s / (2 * pi), digits) + " Hz)";
 }
 
+/// Of a mode at r times its natural frequency; infinite at the resonance of one that nothing damps.
+double amplification(double r, double damping_ratio) {
+  return 1 / std::hypot((1 - r) * (1 + r), 2 * damping_ratio * r);
+}
+
 constexpr int digits_of_refusal = 12, digits_of_warning = 6;
 
 /// Column of the natural frequency nearest to w, on a scale of ratios.
@@ -49,12 +54,11 @@ std::vector<std::string> resonance_warnings(const PreparedTrain& prepared,
                            " of mode " + std::to_string(k + shift) +
                            ", which nothing damps; there is no steady state: give damping, or change the "
                            "frequency");
-    const double amplification = 1 / std::hypot((1 - r) * (1 + r), 2 * zeta * r);
-    warnings.push_back("excitation " + line.excitation + " at " +
-                       both_units(line.frequency_rad_s, digits_of_warning) + " is " +
-                       rounded(100 * std::abs(r - 1), 3) + " % from the natural frequency " +
-                       both_units(w_k, digits_of_warning) + " of mode " + std::to_string(k + shift) +
-                       ": it is amplified up to " + number(std::round(100 * amplification) / 100) + " times");
+    warnings.push_back(
+        "excitation " + line.excitation + " at " + both_units(line.frequency_rad_s, digits_of_warning) +
+        " is " + rounded(100 * std::abs(r - 1), 3) + " % from the natural frequency " +
+        both_units(w_k, digits_of_warning) + " of mode " + std::to_string(k + shift) +
+        ": it is amplified up to " + number(std::round(100 * amplification(r, zeta)) / 100) + " times");
   }
   return warnings;
 }
@@ -62,18 +66,21 @@ std::vector<std::string> resonance_warnings(const PreparedTrain& prepared,
 }  // namespace torsion
 
 std::vector<ResonanceMargin> resonance_margins(const DriveTrain& train) {
-  const torsion::ReducedTrain reduced = torsion::reduce(train);
-  const Eigen::ArrayXd natural = torsion::spectrum(reduced, false).frequency_rad_s;
+  const torsion::PreparedTrain prepared(train);
+  const auto& reduced = prepared.reduced;
+  const auto& natural = prepared.spectrum.frequency_rad_s;
   std::vector<ResonanceMargin> margins;
   if (natural.size() == 0) return margins;
   for (const auto& line : torsion::spectral(train, reduced).lines) {
     const Eigen::Index k = torsion::nearest_mode(natural, line.frequency_rad_s);
     const double margin = line.frequency_rad_s / natural[k] - 1;
+    const double zeta = torsion::damping_ratio(prepared, k);
     margins.push_back({{line.excitation, line.order, line.frequency_rad_s},
                        k + (reduced.held ? 0 : 1),
                        natural[k],
                        margin,
-                       1 / std::abs(margin * (2 + margin))});
+                       zeta,
+                       torsion::amplification(1 + margin, zeta)});
   }
   std::stable_sort(margins.begin(), margins.end(),
                    [](const auto& a, const auto& b) { return std::abs(a.margin) < std::abs(b.margin); });

@@ -64,6 +64,29 @@ TEST(TrainResonance, DampedAmplificationIsHalfTheInverseDamping) {
   EXPECT_NEAR(std::abs(response.harmonics[0].torque_Nm[0]), 0.5 * std::hypot(1, 0.02) / 0.02, 1e-12 * 25);
 }
 
+// Near the resonance of one element with loss factor 0.035 nothing is amplified more than 1/0.035 times, and
+// the margin has the number of the warning. Red with the formula without damping, which has 50 there.
+TEST(TrainResonance, MarginsAreAmplifiedAsTheWarningSays) {
+  auto train = trains::chain({1, 1}, {200});  // 20 rad/s
+  train.elements[0].loss_factor = 0.035;
+  train.excitations = {trains::harmonic("J0", 1, 20 * 1.01), trains::harmonic("J1", 1, 20)};
+  const auto margins = resonance_margins(train);
+  ASSERT_EQ(margins.size(), 2u);
+  EXPECT_NEAR(margins[0].amplification, 1 / 0.035, 1e-9);
+  EXPECT_NEAR(margins[0].damping_ratio, 0.0175, 1e-12);
+  EXPECT_NEAR(margins[1].amplification, 1 / std::hypot(1.01 * 1.01 - 1, 0.035 * 1.01), 1e-9);
+  const auto warnings = forced_response(train).warnings;
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE((warnings[0] + warnings[1]).find("amplified up to 28.57 times"), std::string::npos)
+      << warnings[0];
+  EXPECT_NE((warnings[0] + warnings[1]).find("amplified up to 24.59 times"), std::string::npos)
+      << warnings[0];
+  train.elements[0].loss_factor = 0;
+  train.excitations.pop_back();
+  EXPECT_NEAR(resonance_margins(train)[0].amplification, 1 / (1.01 * 1.01 - 1), 1e-9);
+  EXPECT_EQ(resonance_margins(train)[0].damping_ratio, 0);
+}
+
 // A damper that the mode does not move damps nothing.
 TEST(TrainResonance, DamperAtANodeOfTheModeDoesNotHelp) {
   auto train = trains::chain({1, 1, 1}, {100, 100});
