@@ -26,13 +26,13 @@ double check(const VibratoryMill& mill, const std::vector<std::string>& effects,
   if (!vibratory::contains(effects, "springs"))
     throw MachineRefused("springs: the effect is off, so there are none to choose; add it");
   if (mill.eccentricity_m == 0)
-    refuse("eccentricity_m", 0,
+    refuse("eccentricity", 0,
            "without eccentricity the springs do not move and no stiffness is better than another; give the "
            "eccentricity");
   double total_N_m = 0;
   for (const Spring& spring : mill.springs) total_N_m += spring.stiffness_N_m.y();
   if (total_N_m <= 0)
-    refuse("sum of springs' stiffness_N_m.y", total_N_m,
+    refuse("sum of the springs' vertical stiffness", total_N_m,
            "the given springs are scaled and set the proportions; give them vertical stiffness");
   require_finite("search.least_scale", search.least_scale);
   require_finite("search.most_scale", search.most_scale);
@@ -40,6 +40,8 @@ double check(const VibratoryMill& mill, const std::vector<std::string>& effects,
   if (search.most_scale <= search.least_scale)
     refuse("search.most_scale", search.most_scale, "must exceed search.least_scale");
   if (search.n_scan < 3) refuse("search.n_scan", search.n_scan, "must be at least 3");
+  if (!(search.most_transmitted_N > 0))
+    refuse("search.most_transmitted_N", search.most_transmitted_N, "must be positive");
   return total_N_m;
 }
 
@@ -61,9 +63,9 @@ void warn(const VibratoryMill& mill, bool searched, const SpringSearch& search, 
     choice.warnings.push_back("k* = 0: any stiffness raises the reaction; the weights need springs still");
   const double ends = 1e-6;
   if (searched && choice.scale <= search.least_scale * (1 + ends))
-    choice.warnings.push_back("k* lies at the soft end of the search: search again from softer springs");
+    choice.warnings.push_back("k* lies at the soft end of the search: the bound decides, not the reaction");
   if (searched && choice.scale >= search.most_scale * (1 - ends))
-    choice.warnings.push_back("k* lies at the stiff end of the search: search again from stiffer springs");
+    choice.warnings.push_back("k* lies at the stiff end of the search: the bound decides, not the reaction");
   for (const PitchResonance& resonance : choice.resonances)
     if (resonance.between_given_and_chosen)
       choice.warnings.push_back("between the given springs and k* the pitch passes a resonance at " +
@@ -79,7 +81,7 @@ SpringChoice choose_springs(const VibratoryMill& mill, const std::vector<std::st
   ScalableMill scalable{mill, effects, grid};
   if (mill.convention == Convention::consistent)
     scalable.mill.springs = vibratory::with_preloads(mill, effects);
-  const auto objective = [&](double scale) {
+  const auto reaction = [&](double scale) {
     try {
       const Eigen::Array2Xd R_N = scalable.reaction_N(scale);
       return aim == SpringAim::rms ? vibratory::rms_norm(R_N) : vibratory::peak_norm(R_N);
@@ -87,17 +89,30 @@ SpringChoice choose_springs(const VibratoryMill& mill, const std::vector<std::st
       return std::numeric_limits<double>::infinity();
     }
   };
-  const bool searched = vibratory::contains(effects, "pitch");
+  const auto objective = [&](double scale) {
+    const double reaction_N = reaction(scale);
+    const bool is_free = !std::isfinite(search.most_transmitted_N) || !std::isfinite(reaction_N);
+    return is_free || scalable.transmitted_N(scale) <= search.most_transmitted_N
+               ? reaction_N
+               : std::numeric_limits<double>::infinity();
+  };
+  const bool has_pitch = vibratory::contains(effects, "pitch"),
+             searched = has_pitch || search.bounds_held_pitch;
   SpringChoice choice;
   choice.scale = searched ? vibratory::scan_for_least(objective, search) : held_optimum(scalable, aim);
   choice.stiffness_N_m = choice.scale * given_N_m;
   choice.reaction_N = objective(choice.scale);
-  choice.reaction_given_N = objective(1);
+  choice.reaction_given_N = reaction(1);
+  if (!std::isfinite(choice.reaction_N) && std::isfinite(search.most_transmitted_N))
+    refuse("largest transmitted force [N]", search.most_transmitted_N,
+           "no springs of the search keep it: allow more, or let the search go farther");
   if (!std::isfinite(choice.reaction_N))
     refuse("search.most_scale", search.most_scale,
            "every scale of the search is an undamped resonance of the pitch, or its mean moment is not "
            "resisted; check springs and speed, or give the springs damping");
-  if (searched) choice.resonances = vibratory::pitch_resonances(scalable, search);
+  choice.transmitted_N = scalable.transmitted_N(choice.scale);
+  if (std::isfinite(choice.reaction_given_N)) choice.transmitted_given_N = scalable.transmitted_N(1);
+  if (has_pitch) choice.resonances = vibratory::pitch_resonances(scalable, search);
   for (PitchResonance& resonance : choice.resonances)
     resonance.between_given_and_chosen = (resonance.scale - 1) * (resonance.scale - choice.scale) < 0;
   warn(mill, searched, search, choice);

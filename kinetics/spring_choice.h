@@ -4,6 +4,7 @@
 /// the reaction R_E is affine in the stiffness as long as the pitch is held, R_E = R0(t) + k G(t).
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,14 @@ namespace kinetics {
 /// What is made small: the root of the mean square of |R_E|, or its largest value over the instants.
 enum class SpringAim { rms, peak };
 
-/// Where springs are looked for with pitch on: common scales of all given stiffnesses.
+/// Where springs are looked for: common scales of all given stiffnesses. With the pitch held the optimum is
+/// in closed form, and the scales bound it only where they are asked to.
 struct SpringSearch {
   double least_scale = 1e-2;  ///< > 0
   double most_scale = 1e2;    ///< > least_scale
   int n_scan = 800;           ///< log-spaced scales of the scan, >= 3; each local minimum is then refined
+  double most_transmitted_N = std::numeric_limits<double>::infinity();  ///< limit of transmitted_N, > 0
+  bool bounds_held_pitch = false;  ///< scales and limit bound the optimum with the pitch held too
 };
 
 /// A scale at which the pitch's natural frequency meets a frequency of its moment.
@@ -32,10 +36,13 @@ struct PitchResonance {
 };
 
 struct SpringChoice {
-  double stiffness_N_m = 0;                ///< k*, sum of the vertical stiffnesses
-  double scale = 0;                        ///< k* over that of the given springs; kx goes along
-  double reaction_N = 0;                   ///< what was made small, at k*
-  double reaction_given_N = 0;             ///< the same with the springs as given
+  double stiffness_N_m = 0;     ///< k*, sum of the vertical stiffnesses
+  double scale = 0;             ///< k* over that of the given springs; kx goes along
+  double reaction_N = 0;        ///< what was made small, at k*
+  double reaction_given_N = 0;  ///< the same with the springs as given
+  /// Largest size of the springs' force on the ground over the instants, without its mean (the weights): at
+  /// k*, and with the springs as given.
+  double transmitted_N = 0, transmitted_given_N = 0;
   std::vector<PitchResonance> resonances;  ///< with pitch on, within the search, by rising scale
   std::vector<std::string> warnings;       ///< bounce near the drive, k* at an end of the search ...
 };
@@ -50,6 +57,7 @@ struct SpringChoice {
 /// @throws MachineRefused as compute_loads; without eccentricity (the springs then do not move),
 /// without
 ///         the effect `springs` or vertical stiffness, for a malformed search; if every scale is a resonance
+///         or transmits more than the limit
 SpringChoice choose_springs(const VibratoryMill& mill, const std::vector<std::string>& effects,
                             const TimeGrid& grid, SpringAim aim, const SpringSearch& search = {});
 

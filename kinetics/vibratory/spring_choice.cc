@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kinetics/vibratory/pitch.h"
+#include "kinetics/vibratory_effects/affine_optimum.h"
 #include "kinetics/vibratory_effects/effect.h"
 
 namespace kinetics::vibratory {
@@ -50,6 +51,19 @@ Eigen::Array2Xd ScalableMill::reaction_N(double scale) const {
   Instants at = all_instants(scaled, grid);
   if (contains(effects, "pitch")) solve_pitch(scaled, made).apply(at);
   return reaction_to(made, at);
+}
+
+double ScalableMill::transmitted_N(double scale) const {
+  const VibratoryMill scaled = scaled_by(scale);
+  const auto made = make_effects(scaled, effects);
+  Instants at = all_instants(scaled, grid);
+  if (contains(effects, "pitch")) solve_pitch(scaled, made).apply(at);
+  std::vector<NamedEffect> of_springs;
+  for (const NamedEffect& effect : made)
+    if (effect.name == "springs" || effect.name == "spring_damping") of_springs.push_back(effect);
+  Eigen::Array2Xd force_N = reaction_to(of_springs, at);
+  force_N.colwise() -= force_N.rowwise().mean().eval();
+  return peak_norm(force_N);
 }
 
 Eigen::Array2Xd ScalableMill::slope_N() const {

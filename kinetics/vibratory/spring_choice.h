@@ -20,6 +20,8 @@ struct ScalableMill {
   VibratoryMill scaled_by(double scale) const;
   /// R_E at the grid's instants, minus the sum of all forces on chamber and shaft [N]; 2 x n.
   Eigen::Array2Xd reaction_N(double scale) const;
+  /// Largest size of the sum of elastic and damping forces over the instants, without its mean [N].
+  double transmitted_N(double scale) const;
   /// dR_E / d scale with the pitch held [N]; 2 x n.
   Eigen::Array2Xd slope_N() const;
 };

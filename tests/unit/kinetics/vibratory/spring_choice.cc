@@ -207,6 +207,47 @@ TEST(SpringChoice, AResonanceIsToldOnce) {
     EXPECT_GT(choice.resonances[i].frequency_rad_s, 1.001 * choice.resonances[i - 1].frequency_rad_s);
 }
 
+// The force on the ground is the sum of what the load stage has at the springs' feet, less its mean; what
+// exceeds the limit is not proposed. Red if the limit is not kept, or if springs within it are passed over.
+TEST(SpringChoice, KeepsTheLimitOfTheForceOnTheGround) {
+  const auto mill = machines::laboratory();
+  const Names effects = effects_without(mill, {"charge_lag", "charge_follows_pitch"});
+  const kinetics::TimeGrid turns{20, 24};
+  const auto on_ground = [&](double scale) {
+    const auto loads = compute_loads(scaled(mill, scale), effects, turns);
+    Array2Xd sum = Array2Xd::Zero(2, loads.n_instants());
+    for (const auto& resultant : loads.resultants)
+      if (resultant.role.rfind("spring_foot_", 0) == 0) sum += resultant.total.topRows<2>();
+    sum.colwise() -= sum.rowwise().mean().eval();
+    return std::sqrt(sum.square().colwise().sum().maxCoeff());
+  };
+  kinetics::SpringSearch search{0.1, 9, 200};
+  const auto free = choose_springs(mill, effects, turns, SpringAim::rms, search);
+  EXPECT_NEAR(free.transmitted_N / on_ground(free.scale), 1, 1e-9);
+  EXPECT_NEAR(free.transmitted_given_N / on_ground(1), 1, 1e-9);
+  search.most_transmitted_N = 0.5 * (free.transmitted_N + free.transmitted_given_N);
+  ASSERT_GT(free.transmitted_N, search.most_transmitted_N) << "stiffer springs press harder";
+  const auto limited = choose_springs(mill, effects, turns, SpringAim::rms, search);
+  EXPECT_LE(limited.transmitted_N, search.most_transmitted_N);
+  EXPECT_GT(limited.transmitted_N, 0.999 * search.most_transmitted_N) << "the limit decides";
+  EXPECT_GT(limited.reaction_N, free.reaction_N);
+  EXPECT_LT(limited.reaction_N, limited.reaction_given_N);
+  search.most_transmitted_N = 1e-3;
+  EXPECT_NE(refusal(mill, effects, search).find("no springs of the search keep it"), std::string::npos);
+}
+
+// With the pitch held the optimum is in closed form, and bounds hold where they are asked to.
+TEST(SpringChoice, BoundsHoldWithThePitchHeldWhereTheyAreAskedTo) {
+  const auto mill = round_springs();
+  const auto open = choose_springs(mill, held(mill), grid, SpringAim::rms, {0.5, 2, 100});
+  ASSERT_GT(open.scale, 2);
+  kinetics::SpringSearch search{0.5, 2, 100};
+  search.bounds_held_pitch = true;
+  const auto bounded = choose_springs(mill, held(mill), grid, SpringAim::rms, search);
+  EXPECT_NEAR(bounded.scale, 2, 1e-6);
+  EXPECT_TRUE(bounded.resonances.empty());
+}
+
 TEST(SpringChoice, WrongInputIsRefused) {
   auto mill = machines::laboratory();
   EXPECT_NE(refusal(mill, {"structure_inertia"}).find("the effect is off"), std::string::npos);
@@ -214,8 +255,8 @@ TEST(SpringChoice, WrongInputIsRefused) {
   EXPECT_NE(refusal(mill, {"springs"}, {2, 1, 10}).find("most_scale = 1"), std::string::npos);
   EXPECT_NE(refusal(mill, {"springs"}, {1, 2, 2}).find("n_scan = 2"), std::string::npos);
   for (auto& spring : mill.springs) spring.stiffness_N_m.y() = 0;
-  EXPECT_NE(refusal(mill, {"springs"}).find("stiffness_N_m.y = 0"), std::string::npos);
+  EXPECT_NE(refusal(mill, {"springs"}).find("vertical stiffness = 0"), std::string::npos);
   mill = machines::laboratory();
   mill.eccentricity_m = 0;
-  EXPECT_NE(refusal(mill, {"springs"}).find("eccentricity_m = 0"), std::string::npos);
+  EXPECT_NE(refusal(mill, {"springs"}).find("eccentricity = 0"), std::string::npos);
 }
