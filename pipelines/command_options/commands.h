@@ -83,4 +83,7 @@ void add_init_command(CLI::App& app, ChosenCommand& chosen);
 /// nothing.
 void add_check_command(CLI::App& app, ChosenCommand& chosen);
 
+/// `millstress materials`: the library of materials that scenes name.
+void add_materials_command(CLI::App& app, ChosenCommand& chosen);
+
 }  // namespace pipelines

@@ -415,7 +415,8 @@ BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period
     fatigue.zones[i] = damage_of(zones[i], search, analysis, loads.history, rules, period,
                                  std::binary_search(surface.begin(), surface.end(), zones[i].peak_node));
   });
-  if (rules.scene().size_factor == 1) take_sizes(analysis, search, rules, period, fatigue);
+  if (rules.scene().size_factor == 1 && rules.scene().strength_source.empty())
+    take_sizes(analysis, search, rules, period, fatigue);
   fatigue.warnings = warnings_of(rules, analysis.scene.name, fatigue);
   if (const auto corners = corners_left_out(analysis); !corners.empty())
     fatigue.warnings.push_back(

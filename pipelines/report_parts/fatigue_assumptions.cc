@@ -54,7 +54,9 @@ std::string strength_text(const Scene& of_run, const BodyAnalysis& analysis) {
   const double tensile_MPa = scene.material.tensile_strength_Pa / 1e6;
   auto text =
       "fatigue strength: " +
-      (size_is_given
+      (!scene.strength_source.empty() && scene.size_factor == 1
+           ? fmt::format("R_m {:.0f} MPa of the part at its size: {}", tensile_MPa, scene.strength_source)
+       : size_is_given
            ? fmt::format("R_m {:.0f} MPa of the part at its size, {:.0f} MPa times size_factor {:.3g}",
                          tensile_MPa, tensile_MPa / scene.size_factor, scene.size_factor)
            : fmt::format("R_m {:.0f} MPa, taken as that of the part at its size (no size_factor)",
@@ -84,7 +86,8 @@ std::vector<std::string> fatigue_assumptions(const BodyAnalysis& analysis) {
   std::vector<std::string> lines;
   const auto size =
       scene.size_factor == 1
-          ? std::string("of the part at its size: size_factor 1")
+          ? scene.strength_source.empty() ? std::string("of the part at its size: size_factor 1")
+                                          : "of the part at its size: " + scene.strength_source
           : fmt::format("{:.0f} MPa by size_factor {:.3g}",
                         scene.material.tensile_strength_Pa / scene.size_factor / 1e6, scene.size_factor);
   lines.push_back(

@@ -57,6 +57,11 @@ bool SceneTable::has_list(const std::string& name) const {
   return entry != nullptr && entry->value.kind == TomlNode::Kind::array;
 }
 
+bool SceneTable::has_text(const std::string& name) const {
+  const TomlEntry* const entry = node_->find(name);
+  return entry != nullptr && entry->value.kind == TomlNode::Kind::text;
+}
+
 std::vector<std::string> SceneTable::names() const {
   std::vector<std::string> names;
   for (const auto& entry : node_->entries) names.push_back(entry.key);

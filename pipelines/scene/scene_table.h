@@ -33,6 +33,7 @@ public:
   bool is_present() const noexcept { return is_present_; }
   bool has(const std::string& name) const;
   bool has_list(const std::string& name) const;  ///< an array stands there
+  bool has_text(const std::string& name) const;  ///< a text stands there
   /// That very text stands there.
   bool holds(const std::string& name, const std::string& text) const {
     const TomlEntry* const entry = node_->find(name);

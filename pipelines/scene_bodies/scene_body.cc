@@ -7,15 +7,6 @@
 namespace pipelines {
 namespace {
 
-void read_material(SceneTable material, BodyScene& body) {
-  body.material_name = material.text("name");
-  body.material.youngs_modulus_Pa = material.quantity("youngs_modulus", "Pa", between(1e8, 2e12));
-  body.material.poisson_ratio = material.quantity("poisson_ratio", "1", between(0, 0.4999));
-  body.material.density_kg_m3 = material.quantity("density", "kg/m3", between(100, 30000));
-  body.yield_strength_Pa = material.quantity("yield_strength", "Pa", between(1e6, 1e10));
-  material.finish();
-}
-
 void read_added_masses(SceneTable& table, const BodyKind& kind, BodyScene& body) {
   table.know("added_masses");
   if (table.has("added_masses"))
@@ -76,13 +67,10 @@ BodyScene read_body(SceneTable& table, const BodyKind& kind, const Scene& scene,
   kind.check_ports(table, body);
   read_pressures(table, body);
   if (kind.shares_masses()) read_added_masses(table, kind, body);
-  read_material(table.table("material"), body);
+  const auto strength = read_material(table, body, findings);
   read_solver(table, body);
   read_natural_frequencies(table, body);
-  body.fatigue =
-      read_fatigue(table, body.yield_strength_Pa, std::holds_alternative<ChamberShape>(body.shape));
-  if (body.fatigue && scene.run_up)
-    table.refuse("fatigue", "is judged for steady running; remove it, or the run-up");
+  read_fatigue(table, strength, bool(scene.run_up), body, findings);
   table.finish();
   return body;
 }

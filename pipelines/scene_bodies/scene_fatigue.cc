@@ -18,8 +18,9 @@ std::vector<std::string> group_names() {
   return names;
 }
 
-void read_group(SceneTable& table, FatigueScene& fatigue) {
-  const auto name = table.text_or("group", "steel", "material group of the FKM guideline");
+void read_group(SceneTable& table, MaterialGroup of_material, FatigueScene& fatigue) {
+  const auto name =
+      table.text_or("group", constants_of(of_material).name, "material group of the FKM guideline");
   if (name.empty()) return;
   const auto names = group_names();
   for (const auto& group : material_groups())
@@ -170,17 +171,31 @@ void read_toes(SceneTable& table, FatigueScene& fatigue) {
 
 }  // namespace
 
-std::optional<FatigueScene> read_fatigue(SceneTable& body, double yield_strength_Pa, bool has_welds) {
-  body.know("fatigue");
-  if (!body.has("fatigue")) return std::nullopt;
-  auto table = body.table("fatigue");
-  FatigueScene fatigue;
-  fatigue.material.yield_strength_Pa = yield_strength_Pa;
-  fatigue.material.tensile_strength_Pa = table.quantity("tensile_strength", "Pa", between(1e7, 3e9));
-  if (fatigue.material.tensile_strength_Pa < yield_strength_Pa)
+namespace {
+
+/// R_m of the table, or of the material.
+void read_tensile_strength(SceneTable& table, const KnownStrength& strength, FatigueScene& fatigue) {
+  auto& tensile_Pa = fatigue.material.tensile_strength_Pa;
+  table.know("tensile_strength");
+  if (table.has("tensile_strength") || !strength.why_none.empty()) {
+    tensile_Pa = table.quantity("tensile_strength", "Pa", between(1e7, 3e9));
+  } else {
+    tensile_Pa = strength.tensile_Pa;
+    fatigue.strength_source = strength.source;
+    if (tensile_Pa > 0)
+      table.record_default("tensile_strength", fmt::format("{:g} MPa", tensile_Pa / 1e6),
+                           strength.source.empty() ? "that of the material" : strength.source);
+  }
+  if (tensile_Pa < fatigue.material.yield_strength_Pa)
     table.refuse("tensile_strength", "is below the material's yield_strength; correct one of them");
+}
+
+FatigueScene read_rules(SceneTable& table, const KnownStrength& strength, const BodyScene& body) {
+  FatigueScene fatigue;
+  fatigue.material.yield_strength_Pa = body.yield_strength_Pa;
+  read_tensile_strength(table, strength, fatigue);
   read_size(table, fatigue);
-  read_group(table, fatigue);
+  read_group(table, strength.group, fatigue);
   table.know("elongation");
   if (table.has("elongation")) fatigue.material.elongation = table.quantity("elongation", "1", between(0, 1));
   fatigue.roughness_m = table.quantity_or("roughness", "m", {1e-7, 1e-3}, 25e-6, "R_z of a turned surface");
@@ -192,10 +207,47 @@ std::optional<FatigueScene> read_fatigue(SceneTable& body, double yield_strength
   if (table.has("endurance_limit"))
     fatigue.endurance_Pa = table.quantity("endurance_limit", "Pa", between(1e6, 3e9));
   if (table.has("wanted_life")) fatigue.wanted_life_s = table.quantity("wanted_life", "s", positive(1e12));
-  if (has_welds) read_toes(table, fatigue);
+  if (std::holds_alternative<ChamberShape>(body.shape)) read_toes(table, fatigue);
   try_rules(table, fatigue);
-  table.finish();
   return fatigue;
+}
+
+/// Without a table: by defaults alone, which refuse nothing.
+void judge_by_default(const KnownStrength& strength, bool has_run_up, BodyScene& body,
+                      SceneFindings& findings) {
+  static const TomlNode no_keys;
+  SceneFindings own;
+  own.are_noted = findings.are_noted;
+  SceneTable table(no_keys, body.name + ".fatigue", own);
+  if (has_run_up)
+    body.fatigue_missing = "fatigue is judged for steady running, and this is a run-up";
+  else if (!strength.why_none.empty())
+    body.fatigue_missing = strength.why_none;
+  else if (strength.tensile_Pa > 0 && body.yield_strength_Pa > 0) {  // else an error is told already
+    auto rules = read_rules(table, strength, body);
+    findings.keys.insert(own.keys.begin(), own.keys.end());
+    if (own.errors.empty()) {
+      body.fatigue = std::move(rules);
+      findings.defaults.insert(findings.defaults.end(), own.defaults.begin(), own.defaults.end());
+    } else
+      body.fatigue_missing = own.errors.front().remedy;
+  }
+}
+
+}  // namespace
+
+void read_fatigue(SceneTable& table, const KnownStrength& strength, bool has_run_up, BodyScene& body,
+                  SceneFindings& findings) {
+  table.know("fatigue");
+  body.fatigue_off = table.holds("fatigue", "off");
+  if (body.fatigue_off) return;
+  if (!table.has("fatigue")) return judge_by_default(strength, has_run_up, body, findings);
+  if (table.has_text("fatigue"))
+    return table.refuse("fatigue", "write \"off\", or the table [" + table.key() + ".fatigue]");
+  auto rules = table.table("fatigue");
+  body.fatigue = read_rules(rules, strength, body);
+  rules.finish();
+  if (has_run_up) table.refuse("fatigue", "is judged for steady running; remove it, or the run-up");
 }
 
 }  // namespace pipelines

@@ -148,7 +148,7 @@ void read_duty(SceneTable& root, const TomlNode& tree, Scene& scene, SceneFindin
                                                               [](const auto& b) { return b.fatigue; });
   if (!is_used)
     findings.warnings.push_back(
-        "duty: without [<body>.fatigue] or [[bearings]] the blocks have no use but their largest stresses");
+        "duty: without fatigue of a body or [[bearings]] the blocks have no use but their largest stresses");
 }
 
 }  // namespace pipelines

@@ -19,6 +19,8 @@ struct WeldToeScene {
 
 struct FatigueScene {
   FatigueMaterial material;            ///< its tensile strength has the size factor in it
+  std::string strength_source;         ///< "C45+N, above 16 to 100 mm, EN 10083-2": a strength of the part at
+                                       ///< its size; empty: the scene gives it
   double size_factor = 1;              ///< K_d: tensile strength of the part over that of the scene
   double roughness_m = 0;              ///< R_z
   double treatment = 1;                ///< K_V: shot peening, nitriding ... raise what the surface endures
