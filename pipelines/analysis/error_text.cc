@@ -67,6 +67,30 @@ std::string stress_in_MPa(double value_Pa, double error_Pa) {
   return decimals > most_digits ? fmt::format("{:.3g}", value_Pa / 1e6) : fixed(value_Pa / 1e6, decimals);
 }
 
+std::string with_error(double value, double error, double unit) {
+  constexpr int digits = 4;
+  const double shown = value / unit, size = std::abs(shown);
+  const int before_point = size > 0 ? int(std::floor(std::log10(size))) + 1 : 1;
+  const int decimals = std::clamp(digits - before_point, 0, 2 * digits);
+  if (!std::isfinite(error)) return fixed(shown, decimals) + " +- ?";
+  const double last = std::pow(10, -decimals), rounding = std::abs(shown - std::round(shown / last) * last);
+  constexpr double tiny = 1e-9;  // of the last digit: what rounding adds to a sum
+  const double up = std::ceil((error / unit + rounding) / last - tiny) * last;
+  return fixed(shown, decimals) + " +- " + fixed(up, decimals);
+}
+
+std::string value_with_shares(double value_Pa, const ErrorBudget& errors) {
+  auto text = with_error(value_Pa, errors.total_Pa()) + " MPa";
+  bool is_first = true;
+  for (const auto& entry : errors.model) {
+    if (entry.value_Pa < negligible_share * value_Pa || entry.value_Pa == 0) continue;
+    text += fmt::format(", {}{} from {}", in_MPa(entry.value_Pa), is_first ? " of it" : "",
+                        in_words(entry.source));
+    is_first = false;
+  }
+  return text;
+}
+
 std::string value_with_errors(double value_Pa, const ErrorBudget& errors) {
   auto text = stress_in_MPa(value_Pa, errors.numerical_Pa()) + " MPa +- " + in_MPa(errors.numerical_Pa()) +
               " (numerical)";
@@ -109,20 +133,44 @@ std::string rises_towards_edge(const BodyAnalysis& analysis) {
       edge->name, edge->distance_m * 1e3, fixed(largest_at_border_Pa(analysis) / 1e6, 1), weld);
 }
 
-std::string not_known_well(const GoverningStress& stress, const Search& search) {
-  const double total_Pa = stress.errors.total_Pa();
-  if (!(total_Pa > largest_plain_error * stress.value_Pa)) return {};
+namespace {
+
+/// The largest source of an error, and what lowers it.
+struct LargestError {
+  std::string source, remedy;
+};
+
+LargestError largest_error(const ErrorBudget& errors, const Search& search) {
   const auto smaller = [](const auto& a, const auto& b) { return a.value_Pa < b.value_Pa; };
   const auto largest_of = [&](const std::vector<ErrorEntry>& entries) {
     const auto found = std::max_element(entries.begin(), entries.end(), smaller);
     return found == entries.end() ? ErrorEntry{} : *found;
   };
-  const auto numerical = largest_of(stress.errors.numerical), model = largest_of(stress.errors.model);
-  const bool is_model = smaller(numerical, model);
-  return fmt::format(
-      "{} MPa +- {} MPa ({:.0f} %): {}; remedy: {}", stress_in_MPa(stress.value_Pa, total_Pa),
-      in_MPa(total_Pa), 100 * total_Pa / stress.value_Pa, in_words((is_model ? model : numerical).source),
-      is_model ? remedy_of_model(model.source) : remedy_of_calculation(numerical.source, search));
+  const auto numerical = largest_of(errors.numerical), model = largest_of(errors.model);
+  if (smaller(numerical, model)) return {model.source, remedy_of_model(model.source)};
+  return {numerical.source, remedy_of_calculation(numerical.source, search)};
+}
+
+}  // namespace
+
+std::string remedy_of_error(const ErrorBudget& errors, const Search& search) {
+  const auto largest = largest_error(errors, search);
+  return in_words(largest.source) + "; remedy: " + largest.remedy;
+}
+
+std::string not_known_well(const GoverningStress& stress, const Search& search) {
+  const double total_Pa = stress.errors.total_Pa();
+  if (!(total_Pa > largest_plain_error * stress.value_Pa)) return {};
+  return fmt::format("{} MPa +- {} MPa ({:.0f} %): {}", stress_in_MPa(stress.value_Pa, total_Pa),
+                     in_MPa(total_Pa), 100 * total_Pa / stress.value_Pa,
+                     remedy_of_error(stress.errors, search));
+}
+
+std::string text_of_step(const std::string& body, const Search& search) {
+  const auto& step = search.steps.back();
+  const double percent = step.value_Pa > 0 ? 100 * step.errors.reducible_Pa() / step.value_Pa : 0;
+  return fmt::format("{}, step {}: {} unknowns, {:.4g} MPa known to {:.2g} %, {:.1f} s", body,
+                     search.steps.size(), step.n_dofs, step.value_Pa / 1e6, percent, step.seconds);
 }
 
 }  // namespace pipelines

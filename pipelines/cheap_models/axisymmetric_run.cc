@@ -1,4 +1,5 @@
 #include "pipelines/cheap_models/axisymmetric_run.h"
+#include "pipelines/analysis/error_text.h"
 
 #include <algorithm>
 #include <chrono>
@@ -13,8 +14,8 @@
 #include "pipelines/cheap_models/axisymmetric_refinement.h"
 #include "pipelines/cheap_models/cheap_responses.h"
 #include "pipelines/common/constants.h"
-#include "pipelines/estimates/in_time.h"
 #include "pipelines/common/stage_clock.h"
+#include "pipelines/estimates/in_time.h"
 
 namespace pipelines {
 namespace {
@@ -88,6 +89,7 @@ BodyAnalysis analyse_axisymmetric(const Scene& scene, const BodyScene& body, con
   search.ended = "the tolerance is met";
   auto step = refinement.next(clock);
   search.steps.push_back(record(scene, body, step));
+  clock.note(text_of_step(body.name, search));
   while (!AxisymmetricRefinement::is_met(step, target)) {
     if (int(search.steps.size()) >= AxisymmetricRefinement::most_steps) {
       search.ended = "too many steps";
@@ -99,6 +101,7 @@ BodyAnalysis analyse_axisymmetric(const Scene& scene, const BodyScene& body, con
       break;
     }
     search.steps.push_back(record(scene, body, step));
+    clock.note(text_of_step(body.name, search));
   }
   const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
   const auto places = step.places;

@@ -21,6 +21,7 @@
 #include "pipelines/body_stages/respond.h"
 #include "pipelines/channels/load_files.h"
 #include "pipelines/command_options/option_value.h"
+#include "pipelines/command_options/result_place.h"
 #include "pipelines/command_options/scene_options.h"
 #include "pipelines/commands/run_results.h"
 #include "pipelines/common/failure.h"
@@ -47,6 +48,7 @@
 #include "pipelines/search/duty_loads.h"
 #include "pipelines/search/duty_run.h"
 #include "pipelines/search/scene_run.h"
+#include "pipelines/verdict/verdict_text.h"
 
 namespace pipelines {
 namespace {
@@ -55,6 +57,7 @@ struct RunCommandOptions : WantedRun {
   std::filesystem::path output;  ///< directory; empty: the default
   bool fresh = false;
   bool json = false;
+  bool strict = false;  ///< a verdict of NOT OK is a failure
 };
 
 const std::vector<DutyPlace>* places_of(const DutyResult& duty, const std::string& body) {
@@ -101,8 +104,8 @@ std::string draw(const std::filesystem::path& envelope, const std::filesystem::p
                                                             fixed(stress.value_Pa / 1e6, 1), stress.place)};
   note_lives_of_toes(analysis, duty, options);
   return write_picture(envelope, pictured_field(analysis),
-                       title + ", " + analysis.scene.name + ": largest von Mises stress over the cycle",
-                       "MPa", directory / "envelope.png", options)
+                       title + ": largest von Mises stress over the cycle", "MPa", directory / "envelope.png",
+                       options)
              ? ""
              : "no picture: " + why_nothing_draws() + "; envelope.vtu opens in ParaView";
 }
@@ -114,13 +117,24 @@ struct Request {
   const std::filesystem::path& directory;
   RequestedAccuracy accuracy;
   std::string key;  ///< run_key
+  Variant variant;
 };
 
-void print(const Request& request, const std::string& summary, const std::string& table) {
+void print(const Request& request, const std::string& summary, const RunRecord& record) {
+  const bool is_verbose = request.options.verbosity() == Verbosity::verbose;
   if (request.options.json)
     request.out << summary;
   else
-    request.out << table << "\n  results in " << request.directory.string() << '\n';
+    request.out << (is_verbose ? record.full_table : record.table) << "  results in "
+                << request.directory.string() << '\n';
+}
+
+/// @param summary  text of summary.json
+void fail_if_strict(const Request& request, const std::string& summary) {
+  if (!request.options.strict) return;
+  const auto verdict = summary::Json::parse(summary).at("verdict");
+  if (verdict.at("judgement") == to_string(Judgement::not_ok))
+    throw VerdictNotOk(verdict.at("headline").get<std::string>() + "; the results are kept");
 }
 
 /// The torsion of a train without the warnings that its loads have told.
@@ -133,9 +147,10 @@ TorsionReport with_new_warnings(TorsionReport torsion, const std::vector<std::st
   return torsion;
 }
 
-std::string table_of(const RunReport& content, const std::optional<TorsionReport>& torsion) {
+std::string table_of(const RunReport& content, const std::optional<TorsionReport>& torsion,
+                     void (*print_tables)(std::ostream&, const RunReport&)) {
   std::ostringstream table;
-  print_report(table, content);
+  print_tables(table, content);
   if (torsion) print_torsion(table, content.scene, with_new_warnings(*torsion, content.loads.warnings));
   return table.str();
 }
@@ -145,14 +160,16 @@ std::string table_of(const RunReport& content, const std::optional<TorsionReport
 void finish_run(const Request& request, StagedResults* staged, const RunReport& content,
                 const std::optional<TorsionReport>& torsion, RunRecord record) {
   const auto summary = summary_json(content);
-  record.table = table_of(content, torsion);
+  record.table = table_of(content, torsion, print_report);
+  record.full_table = table_of(content, torsion, print_full_report);
   if (staged == nullptr) return;
   write_text_file(staged->folder() / "summary.json", summary);
   write_html_report(staged->folder(), request.directory / "accuracy");
   if (!are_as_noted(noted_inputs())) record.key.clear();
   write_run_record(staged->folder(), record);
   staged->publish();
-  print(request, summary, record.table);
+  print(request, summary, record);
+  fail_if_strict(request, summary);
 }
 
 RequestedAccuracy requested_accuracy_of(const RunCommandOptions& options, const Scene& scene) {
@@ -210,14 +227,14 @@ void run_load_stage(const Request& request, const Scene& given, StageClock& cloc
   const auto lives = bearing_lives(scene.bearings, loads, {});
   warn_beyond_ratings(scene.bearings, lives, loads);
   const auto duty = duty_of_loads(given, scene, loads, request.options.n_threads, clock);
-  StagedResults staged(request.directory, run_names({}));
+  StagedResults staged(request.directory, run_names({}), "-o", request.variant);
   clock.run("write",
             [&] { write_load_results(staged.folder(), loads, {}, threads(request.options.n_threads)); });
   const auto torsion = torsion_of(scene, scene.machine, staged.folder(), clock);
   finish_run(
       request, &staged,
       {scene, loads, {}, {}, clock.costs(), lives, duty ? &*duty : nullptr, torsion ? &*torsion : nullptr},
-      torsion, {request.key, {}, {}, ""});
+      torsion, {request.key, {}, {}});
 }
 
 /// The default's minute was up before its tolerance was met: told loudly, but no failure, since nobody asked.
@@ -239,6 +256,21 @@ std::vector<std::string> warn_of_default(SceneRun& run) {
   return warnings;
 }
 
+/// A beam's numbers look as good as any: without a tolerance nothing else would say how far they may be off.
+/// @return the warnings
+std::vector<std::string> warn_of_beams(SceneRun& run) {
+  std::vector<std::string> warnings;
+  for (const auto& analysis : run.analyses) {
+    if (analysis.method != Method::beam) continue;
+    const auto trouble = not_known_well(governing_stress(analysis), analysis.search);
+    if (trouble.empty()) continue;
+    const auto text = analysis.scene.name + ": not known well: " + trouble;
+    warn(run.loaded.loads, text);
+    warnings.push_back("millstress: " + text);
+  }
+  return warnings;
+}
+
 /// Whether the same run asked for again shall find these results. What was asked for and missed is tried
 /// again; the default is not: its minute ends a search wherever the machine's load has it end.
 bool is_kept(const SceneRun& run, const RequestedAccuracy& accuracy) {
@@ -253,14 +285,23 @@ void warn_of_damage(SceneRun& run) {
     std::cerr << "millstress: " << fault << '\n';
 }
 
+/// "shaft: OK"
+std::string verdict_on(const SceneRun& run, const std::string& body, const DutyResult* duty) {
+  const auto verdict = judge({run.scene, run.loaded.loads, run.analyses, {}, {}, run.loaded.bearings, duty});
+  for (const auto& part : verdict.parts)
+    if (part.name == body) return body + ": " + headline(part);
+  return body;
+}
+
 /// The picture of one body, whose envelope is written.
 /// @return as draw
 std::string draw_body(const std::filesystem::path& place, const Scene& scene, const SceneRun& run,
                       const BodyAnalysis& analysis, const DutyResult* duty) {
-  if (n_ranks_of_a_body() == 1) return draw(place / "envelope.vtu", place, scene.title, analysis, duty);
+  const auto title = scene.title + ", " + verdict_on(run, analysis.scene.name, duty);
+  if (n_ranks_of_a_body() == 1) return draw(place / "envelope.vtu", place, title, analysis, duty);
   const AtomicFile whole(place / "envelope_whole.vtu");  // not kept
   write_whole_envelope(whole.temporary(), run.scene, run.loaded.loads, analysis);
-  return draw(whole.temporary(), place, scene.title, analysis, duty);
+  return draw(whole.temporary(), place, title, analysis, duty);
 }
 
 /// A picture takes seconds, and results are not there before all are drawn.
@@ -317,8 +358,9 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   const auto accuracy = with_default(request.accuracy);
   const fem::Environment environment(options.n_threads);
   std::optional<StagedResults> staged;  // on the first rank
-  fem::on_first_rank(ranks_of_a_body(),
-                     [&] { staged.emplace(request.directory, run_names(body_names(scene))); });
+  fem::on_first_rank(ranks_of_a_body(), [&] {
+    staged.emplace(request.directory, run_names(body_names(scene)), "-o", request.variant);
+  });
   const auto folder = staged ? staged->folder() : std::filesystem::path();
   SceneRunOptions run_options{staged ? staged->directory() : request.directory, options.n_threads,
                               options.fresh, true, accuracy};
@@ -333,9 +375,11 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   }
   warn_of_damage(run);
   if (is_first_rank()) learn_from(run);
-  const auto default_warnings = accuracy.by_default ? warn_of_default(run) : std::vector<std::string>();
+  const auto default_warnings = accuracy.by_default ? warn_of_default(run)
+                                : accuracy.once     ? warn_of_beams(run)
+                                                    : std::vector<std::string>();
   const auto& loads = run.loaded.loads;
-  RunRecord record{is_kept(run, accuracy) ? request.key : "", run.kept_under, default_warnings, ""};
+  RunRecord record{is_kept(run, accuracy) ? request.key : "", run.kept_under, default_warnings};
   for (const auto& fault : write_and_draw(request, scene, run, duty ? &*duty : nullptr, folder, start, clock))
     record.warnings.push_back(fault);
   if (duty && staged) clock.run("write", [&] { write_duty(folder / "duty.csv", *duty); });
@@ -358,7 +402,8 @@ bool is_unchanged(const Request& request, const Scene& scene) {
   for (const auto& warning : earlier->record.warnings) std::cerr << warning << '\n';
   if (request.options.verbosity() != Verbosity::quiet)
     std::cerr << "unchanged since the last run: nothing was computed (--fresh computes anew)\n";
-  print(request, earlier->summary, earlier->record.table);
+  print(request, earlier->summary, earlier->record);
+  fail_if_strict(request, earlier->summary);
   return true;
 }
 
@@ -372,13 +417,19 @@ void run(const RunCommandOptions& as_given, std::ostream& out) {
   const auto options = on_this_rank(as_given);
   Scene scene = read_scene(options.scene, options.settings);
   scene.method = requested_method(options.method, scene);
-  const auto directory = results_directory(options.output, scene);
+  const auto variant = variant_of(options);
+  const auto directory = results_directory(options.output, default_directory(options), variant);
   const auto accuracy = requested_accuracy_of(options, scene);
   const Request request{
-      options, out, directory, accuracy,
-      run_key(scene, accuracy, threads(options.n_threads), n_ranks_of_a_body(), noted_inputs())};
+      options,
+      out,
+      directory,
+      accuracy,
+      run_key(scene, accuracy, threads(options.n_threads), n_ranks_of_a_body(), noted_inputs()),
+      variant};
   if (as_on_first_rank(is_first_rank() && is_unchanged(request, scene))) return;
-  StageClock clock(progress_on_stderr(options.verbosity()));
+  require_own_variant(directory, variant);
+  StageClock clock(progress_on_stderr(options.verbosity(), with_default(accuracy).time_limit_s));
   (scene.bodies.empty() ? run_load_stage : run_bodies)(request, scene, clock);
 }
 
@@ -407,9 +458,11 @@ void add_run_command(CLI::App& app, ChosenCommand& chosen) {
   auto* command =
       add_scene_command(app, "run", "everything: loads, mesh, stresses, zones, results", *options);
   add_results_option(*command, options->output);
+  add_force_option(*command, *options);
   add_run_options(*command, *options, chosen);
   command->add_flag("--fresh", options->fresh,
                     "reuse nothing of an earlier run, and compute even if nothing has changed");
+  command->add_flag("--strict", options->strict, "exit code 5 where the verdict is NOT OK; results are kept");
   command->add_flag("--json", options->json, "print summary.json instead of the table");
   command->callback([options, choose = to_choose(chosen, options, run), &chosen] {
     choose();

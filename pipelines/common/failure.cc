@@ -54,6 +54,8 @@ Failure failed_work() {
     throw;
   } catch (const ToleranceNotMet& error) {
     return told(tolerance_not_met, error.what());
+  } catch (const VerdictNotOk& error) {
+    return told(verdict_not_ok, error.what());
   } catch (const meshes::MeshRefused& error) {
     return told(mesh_or_solve_failed, error.what());
   } catch (const fem::MeshUnusable& error) {

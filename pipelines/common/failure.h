@@ -6,10 +6,16 @@
 
 namespace pipelines {
 
-enum ExitCode { done = 0, scene_is_wrong = 2, mesh_or_solve_failed = 3, tolerance_not_met = 4 };
+enum ExitCode { done = 0, scene_is_wrong = 2, mesh_or_solve_failed = 3, tolerance_not_met = 4, verdict_not_ok = 5 };
 
 /// A tolerance or time limit that a run did not meet; its results are kept.
 class ToleranceNotMet : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A machine whose verdict is NOT OK, where the run was asked to fail then; its results are kept.
+class VerdictNotOk : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 
@@ -11,40 +13,57 @@ namespace {
 
 constexpr int bar_width = 30;
 
-/// Who cannot be told goes without: fmt::print would throw where stderr is closed or its disk full, and stages
-/// end in destructors.
+/// Who cannot be told goes without: fmt::print would throw where stderr is closed or its disk full, and
+/// stages end in destructors.
 void tell(const std::string& text) {
   std::fputs(text.c_str(), stderr);
 }
 
-void draw_bar(const std::string& stage, double share, const std::string& step) {
-  const int full = int(share * bar_width);
-  // Erase to the end of the line, so that a longer text before leaves nothing behind.
-  tell(fmt::format("\r  {:<12}[{:#<{}}{:.<{}}] {:3.0f} %  {}\x1b[K", stage, "", full, "", bar_width - full,
-                   share * 100, step));
-  std::fflush(stderr);
-}
+/// The present stage, when it all began, and how long it may take.
+struct Bar {
+  std::string stage;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  double limit_s = 0;
+
+  void draw(double share_of_stage, const std::string& step) const {
+    const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - start;
+    const double share = limit_s > 0 ? so_far.count() / limit_s : share_of_stage;
+    const int full = int(std::clamp(share, 0.0, 1.0) * bar_width);
+    const auto left =
+        limit_s > so_far.count() ? fmt::format(", at most {:.0f} s left", limit_s - so_far.count()) : "";
+    // Erase to the end of the line, so that a longer text before leaves nothing behind.
+    tell(fmt::format("\r  [{:#<{}}{:.<{}}] {:.0f} s{}  {} {}\x1b[K", "", full, "", bar_width - full,
+                     so_far.count(), left, stage, step));
+    std::fflush(stderr);
+  }
+};
 
 }  // namespace
 
-ProgressListener progress_on_stderr(Verbosity verbosity) {
+ProgressListener progress_on_stderr(Verbosity verbosity, double limit_s) {
   ProgressListener listener;
   if (verbosity == Verbosity::quiet) return listener;
   const bool terminal = isatty(STDERR_FILENO) == 1, verbose = verbosity == Verbosity::verbose;
-  const auto stage = std::make_shared<std::string>();
+  const auto bar = std::make_shared<Bar>();
+  bar->limit_s = limit_s;
   listener.begin = [=](const std::string& name) {
-    *stage = name;
-    if (terminal) draw_bar(name, 0, "");
+    bar->stage = name;
+    if (terminal) bar->draw(0, "");
   };
   listener.advance = [=](double share, const std::string& step) {
     if (terminal)
-      draw_bar(*stage, share, step);
+      bar->draw(share, step);
     else if (verbose)
-      tell(fmt::format("  {}: {}\n", *stage, step));
+      tell(fmt::format("  {}: {}\n", bar->stage, step));
   };
   listener.end = [=](const StageCost& cost) {
     if (terminal) tell("\r\x1b[K");
-    if (!terminal || verbose) tell(fmt::format("  {:<12}{:8.2f} s\n", cost.stage, cost.seconds));
+    if (verbose) tell(fmt::format("  {:<12}{:8.2f} s\n", cost.stage, cost.seconds));
+    std::fflush(stderr);
+  };
+  listener.note = [=](const std::string& what) {
+    if (terminal) tell("\r\x1b[K");
+    tell("  " + what + "\n");
     std::fflush(stderr);
   };
   return listener;

@@ -29,6 +29,7 @@ struct ProgressListener {
   std::function<void(const std::string& stage)> begin;
   std::function<void(double share, const std::string& step)> advance;  ///< within the stage, 0 to 1
   std::function<void(const StageCost& cost)> end;
+  std::function<void(const std::string& what)> note;  ///< something worth a line: a step of a search
 };
 
 /// Runs stages one after another and keeps their cost.
@@ -45,6 +46,9 @@ public:
 
   void advance(double share, const std::string& step) const {
     if (listener_.advance) listener_.advance(share, step);
+  }
+  void note(const std::string& what) const {
+    if (listener_.note) listener_.note(what);
   }
   const std::vector<StageCost>& costs() const noexcept { return costs_; }
 

@@ -18,6 +18,9 @@ table { border-collapse: collapse; margin: .6rem 0 1.2rem; }
 th, td { padding: .2rem .8rem .2rem 0; text-align: left; vertical-align: top; } th { border-bottom: 1px solid #888; }
 tr:nth-child(even) td { background: #f5f5f5; } .number { text-align: right; font-variant-numeric: tabular-nums; }
 .warning { background: #fff3d6; border-left: 4px solid #d69e00; padding: .4rem .8rem; }
+.verdict { font-size: 1.2rem; font-weight: bold; padding: .4rem .8rem; }
+.ok { background: #dff2df; border-left: 6px solid #2c8a2c; } .not-ok { background: #fbdcdc; border-left: 6px solid #c02020; }
+.not-judged { background: #fff3d6; border-left: 6px solid #d69e00; } summary { cursor: pointer; }
 pre { overflow-x: auto; background: #f5f5f5; padding: .6rem; font-size: 12px; line-height: 1.35; }
 img { max-width: 100%; } figure { margin: 1rem 0; } figcaption { color: #555; }
 )";
@@ -52,6 +55,20 @@ void HtmlPage::paragraph(const std::string& text) {
 
 void HtmlPage::warning(const std::string& text) {
   body_ += "<p class=\"warning\">" + escaped(text) + "</p>\n";
+}
+
+void HtmlPage::verdict(const std::string& judgement, const std::string& text) {
+  const char* colour = judgement == "OK" ? "ok" : judgement == "NOT OK" ? "not-ok" : "not-judged";
+  body_ += fmt::format("<p class=\"verdict {}\">{}</p>\n", colour, escaped(text));
+}
+
+void HtmlPage::folded(const std::string& title, const std::function<void()>& add) {
+  auto before = std::move(body_);
+  body_.clear();
+  add();
+  if (!body_.empty())
+    before += "<details><summary>" + escaped(title) + "</summary>\n" + body_ + "</details>\n";
+  body_ = std::move(before);
 }
 
 void HtmlPage::preformatted(const std::string& text) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,11 @@ public:
   void heading(int level, const std::string& text);
   void paragraph(const std::string& text);
   void warning(const std::string& text);
+  /// A box that is green, yellow or red.
+  /// @param judgement  "OK", "NOT JUDGED", "NOT OK"
+  void verdict(const std::string& judgement, const std::string& text);
+  /// What `add` adds, behind a line that opens it; nothing if it adds nothing.
+  void folded(const std::string& title, const std::function<void()>& add);
   /// As it stands, in letters of one width.
   void preformatted(const std::string& text);
   /// Cells that begin with a digit or sign stand to the right. Rows without cells are left out.

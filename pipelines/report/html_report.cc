@@ -194,6 +194,20 @@ std::string solved_by(const Json& body) {
          solver.at("reason").get<std::string>() + ")";
 }
 
+/// First of all: what the machine is judged by. Results of earlier versions have none.
+void add_verdict(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("verdict")) return;
+  const auto& verdict = summary.at("verdict");
+  page.verdict(verdict.at("judgement").get<std::string>(), verdict.at("headline").get<std::string>());
+  Rows rows;
+  for (const auto& [name, part] : verdict.at("parts").items())
+    for (const auto& finding : part.at("findings"))
+      rows.push_back({name, finding.at("judgement").get<std::string>(),
+                      finding.at("criterion").get<std::string>(), finding.at("figure").get<std::string>(),
+                      finding.at("place").get<std::string>(), finding.at("remedy").get<std::string>()});
+  page.table({"", "verdict", "criterion", "figure and limit", "weakest place", "what to do"}, rows);
+}
+
 void add_body(HtmlPage& page, const std::filesystem::path& directory, const std::string& name,
               const Json& body) {
   page.heading(2, "The " + name);
@@ -209,10 +223,12 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
   add_zones(page, body);
   const auto& governing = body.at("governing");
   const auto& peak = body.at("peak_von_mises");
-  add_budget(page, governing.at("name").get<std::string>(), governing.at("error"),
-             governing.at("value").get<double>());
-  add_search(page, body);
-  add_effects(page, peak);
+  page.folded("How well the stress is known", [&] {
+    add_budget(page, governing.at("name").get<std::string>(), governing.at("error"),
+               governing.at("value").get<double>());
+  });
+  page.folded("How the mesh was found", [&] { add_search(page, body); });
+  page.folded("Shares of all effects", [&] { add_effects(page, peak); });
   add_shaft_torsion(page, body);
   add_seats(page, body);
   add_fatigue(page, body);
@@ -328,7 +344,10 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory,
   if (input.contains("settings"))
     for (const auto& setting : input.at("settings"))
       page.paragraph("Set on the command line: " + setting.get<std::string>());
-  for (const auto& warning : summary.at("warnings")) page.warning(warning.get<std::string>());
+  add_verdict(page, summary);
+  page.folded(fmt::format("Warnings ({})", summary.at("warnings").size()), [&] {
+    for (const auto& warning : summary.at("warnings")) page.warning(warning.get<std::string>());
+  });
   if (summary.contains("bodies"))
     for (const auto& [name, body] : summary.at("bodies").items()) add_body(page, directory, name, body);
   add_loads(page, summary);
@@ -338,7 +357,7 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory,
   add_natural_frequencies(page, summary);
   add_resonance_margins(page, summary);
   add_accuracy(page, accuracy);
-  if (summary.contains("timing")) add_timing(page, summary);
+  if (summary.contains("timing")) page.folded("Time and memory", [&] { add_timing(page, summary); });
   return page.text();
 }
 

@@ -12,6 +12,7 @@
 #include "pipelines/common/statistics.h"
 #include "pipelines/machines/load_table_reader.h"
 #include "pipelines/report/summary.h"
+#include "pipelines/report/table_parts.h"
 #include "pipelines/report_parts/duty_report.h"
 #include "pipelines/report_parts/fatigue_assumptions.h"
 #include "pipelines/report_parts/fatigue_report.h"
@@ -22,29 +23,6 @@
 
 namespace pipelines {
 namespace {
-
-void print_load(std::ostream& out, const LoadFigure& figure) {
-  const auto& s = figure.statistics;
-  const double scale = std::max(std::abs(s.max), std::abs(s.min));
-  out << fmt::format("  {:<28}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}\n", figure.name + " [" + figure.unit + "]",
-                     s.max, s.min, without_rounding(s.mean, scale), s.rms);
-}
-
-void print_loads(std::ostream& out, const RunReport& report) {
-  out << fmt::format("  {:<28}{:>12}{:>12}{:>12}{:>12}\n", "load", "max", "min", "mean", "rms");
-  const MachineKind& kind = kind_of(report.scene.machine);
-  for (const auto& figure : load_figures(report.scene, report.loads))
-    if (kind.is_headline(figure.name)) print_load(out, figure);  // the rest is in summary.json
-}
-
-std::string when(const RunReport& report, std::int32_t instant) {
-  const auto moment = moment_of(report.scene, report.loads, instant);
-  return fmt::format("turn {}, {:.0f} deg", moment.turn, moment.angle_rad * 180 / pi);
-}
-
-std::string where(const std::array<double, 3>& p) {
-  return fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", p[0] * 1e3, p[1] * 1e3, p[2] * 1e3);
-}
 
 void print_masses(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
   for (const auto& figure : report.masses)
@@ -70,7 +48,7 @@ void print_hot_spots(std::ostream& out, const RunReport& report, const BodyAnaly
     out << fmt::format("  {:<40}{:>14}{:>10}{:>20.1f}  {}\n", spot.name,
                        stress_in_MPa(spot.von_mises_Pa, error_Pa(analysis, spot)),
                        fixed(error_Pa(analysis, spot) / 1e6, 1),
-                       (spot.max_normal_Pa - spot.min_normal_Pa) / 1e6, when(report, spot.instant));
+                       (spot.max_normal_Pa - spot.min_normal_Pa) / 1e6, moment_text(report, spot.instant));
   }
 }
 
@@ -113,7 +91,8 @@ void print_governing(std::ostream& out, const RunReport& report, const BodyAnaly
   if (const auto rise = rises_towards_edge(analysis); !rise.empty()) out << "SHARP EDGE: " << rise << "\n  ";
   out << fmt::format("{} {}, safety against yield {}\n    at {} ({}), {}, {}\n", stress.name(),
                      value_with_errors(stress.value_Pa, stress.errors), fixed(stress.safety, 2), stress.place,
-                     to_string(stress.surface), where(stress.position_m), when(report, stress.instant));
+                     to_string(stress.surface), point_text(stress.position_m),
+                     moment_text(report, stress.instant));
 }
 
 /// The peak, where a hot spot is worse.
@@ -123,8 +102,8 @@ void print_peak(std::ostream& out, const RunReport& report, const BodyAnalysis& 
   out << fmt::format(
       "\n  peak von Mises stress outside the exclusion distances {}, safety against yield {}\n",
       value_with_errors(peak.value_Pa, peak.errors), fixed(peak.safety, 2));
-  out << fmt::format("    at {} ({}), {}, {}\n", peak.feature, to_string(peak.place), where(peak.position_m),
-                     when(report, peak.instant));
+  out << fmt::format("    at {} ({}), {}, {}\n", peak.feature, to_string(peak.place),
+                     point_text(peak.position_m), moment_text(report, peak.instant));
 }
 
 void print_zones(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
@@ -138,7 +117,7 @@ void print_zones(std::ostream& out, const RunReport& report, const BodyAnalysis&
     out << fmt::format("  {:>3}  {:<34}{:>7}{:>9}{:>9}{:>13} {:>13}  {:<20}{}\n", i + 1, zones[i].feature,
                        stress_in_MPa(zones[i].peak_Pa, error.value_or(0)),
                        error ? fixed(*error / 1e6, 1) : "-", fixed(zones[i].safety, 2), volume.volume,
-                       volume.error, "  " + when(report, zones[i].instant), to_string(zones[i].place));
+                       volume.error, "  " + moment_text(report, zones[i].instant), to_string(zones[i].place));
     for (const auto& text : {causes_text(analysis, i), parts_text(zones[i])})
       if (!text.empty()) out << "       " << text << '\n';
   }
@@ -207,48 +186,10 @@ void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& 
                        seat.max_slope_rad * 1e3);
 }
 
-void print_resampling(std::ostream& out, const RunReport& report) {
-  const auto errors = resampling_errors(report.scene.machine, report.scene.sampling);
-  if (errors.empty()) return;
-  out << fmt::format("\n  {:<36}{:>14}{:>14}{:>18}\n", "samples", "largest", "jump at seam",
-                     "between samples");
-  for (const auto& e : errors)
-    out << fmt::format("  {:<36}{:>14.5g}{:>14.3g}{:>18.3g}\n", e.effect + "/" + e.port + "." + e.component,
-                       e.largest, e.jump, e.between);
-}
-
-void print_bearings(std::ostream& out, const RunReport& report) {
-  if (report.bearings.empty()) return;
-  out << fmt::format("\n  {:<28}{:>18}{:>14}{:>14}{:>12}\n", "bearing", "equivalent load N", "largest N",
-                     "revolutions", "L10h hours");
-  for (const auto& b : report.bearings) {
-    out << fmt::format("  {:<28}{:>18.5g}{:>14.5g}{:>14}{:>12}\n", b.name, b.equivalent_load_N,
-                       b.largest_load_N,
-                       b.life ? fmt::format("{:.3g}", 1e6 * b.life->million_revolutions) : "unloaded",
-                       b.life ? fmt::format("{:.5g}", b.life->hours) : "-");
-    for (const auto& line : answer_lines(b.answers)) out << "    " << line << '\n';
-  }
-}
-
-std::string window_of(const RunReport& report) {
-  const auto& grid = report.scene.sampling;
-  if (!report.scene.run_up)
-    return fmt::format("{} turn{} of {} instants", grid.turns, grid.turns == 1 ? "" : "s",
-                       grid.instants_per_turn);
-  const auto& loads = report.loads;
-  const auto last = loads.n_instants() - 1;
-  return fmt::format("a run-up of {:.4g} s, {:.3g} turns, {} instants", loads.time_s[last],
-                     (loads.phi_rad[last] - loads.phi_rad[0]) / (2 * pi), loads.n_instants());
-}
-
 }  // namespace
 
-void print_report(std::ostream& out, const RunReport& report) {
-  out << fmt::format("\n{}: {} ({}), {}\n", report.scene.title, report.loads.machine, report.loads.convention,
-                     window_of(report));
-  for (const auto& setting : report.scene.settings) out << "  set on the command line: " << setting << '\n';
-  for (const auto& samples : samples_read(report.scene.machine)) out << "  read " << samples.text() << '\n';
-  out << '\n';
+void print_full_report(std::ostream& out, const RunReport& report) {
+  print_title_and_verdict(out, report);
   print_loads(out, report);
   for (const auto& analysis : report.bodies) print_body(out, report, analysis);
   print_shortest_lives(out, report);

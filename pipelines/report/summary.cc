@@ -17,6 +17,7 @@
 #include "pipelines/report_parts/duty_report.h"
 #include "pipelines/report_parts/fatigue_report.h"
 #include "pipelines/scene/machine_kind.h"
+#include "pipelines/verdict/verdict_text.h"
 
 namespace pipelines {
 namespace {
@@ -97,13 +98,15 @@ std::string summary_json(const RunReport& report) {
                           {"machine", report.loads.machine},
                           {"convention", report.loads.convention},
                           {"effects", report.scene.effects}});
+  json["verdict"] = verdict_json(judge(report));
   take_window(report, json["input"]);
   if (!report.scene.settings.empty()) json["input"]["settings"] = report.scene.settings;
-  for (const auto& samples : samples_read(report.scene.machine))
+  for (const auto& samples : samples_read(report.scene.machine, report.scene.sampling))
     json["input"]["samples"].push_back(object({{"effect", samples.effect},
                                                {"rows", samples.n},
                                                {"from_deg", number(samples.from_deg)},
-                                               {"to_deg", number(samples.to_deg)}}));
+                                               {"to_deg", number(samples.to_deg)},
+                                               {"read", samples.origin}}));
   if (!report.scene.effect_choice.offered.empty()) json["dropped_effects"] = choice_json(report);
   json["warnings"] = Json::array();
   for (const auto& analysis : report.bodies)

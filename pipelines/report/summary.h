@@ -16,7 +16,12 @@ std::string summary_json(const RunReport& report);
 /// @param bodies  solved; none: nothing is known of stresses
 void print_effect_choice(std::ostream& out, const Scene& scene, const std::vector<BodyAnalysis>& bodies);
 
-/// The table for a person: loads, peak stress with place and moment, zones, torsion, seconds per stage.
+/// The table for a person: verdict, loads, what governs each body with its largest zones and shortest lives,
+/// bearings, warnings, seconds. At most fifteen lines a body.
 void print_report(std::ostream& out, const RunReport& report);
+
+/// The same with all that explains how the figures came about: every zone, the search's steps, closure,
+/// solver, masses, assumptions, seconds per stage.
+void print_full_report(std::ostream& out, const RunReport& report);
 
 }  // namespace pipelines

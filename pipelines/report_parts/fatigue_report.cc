@@ -110,8 +110,20 @@ summary::Json welds_json(const BodyFatigue& fatigue, const std::vector<std::stri
 
 }  // namespace
 
+/// Two digits without an exponent below a million.
+std::string plain_hours(double life_s) {
+  const double hours = life_s / seconds_per_hour;
+  if (!(hours >= 0.01) || hours >= 1e6) return fmt::format("{:.2g}", hours);
+  const double digit = std::pow(10, std::floor(std::log10(hours)) - 1);
+  return fmt::format("{:g}", std::round(hours / digit) * digit);
+}
+
+std::string hours_text(double life_s) {
+  return plain_hours(life_s) + " h";
+}
+
 std::string life_text(const std::optional<double>& life_s) {
-  return life_s ? fmt::format("{:.2g} h", *life_s / seconds_per_hour) : "endures";
+  return life_s ? hours_text(*life_s) : "endures";
 }
 
 std::string life_text(const std::optional<double>& life_s, const LifeCertainty& certainty) {
@@ -122,8 +134,8 @@ std::string life_text(const std::optional<double>& life_s, const LifeCertainty& 
   if (!life_s)
     return range->least_s ? text + "; " + life_text(range->least_s) + " with the stated error" : text;
   if (!range) return text + ", not known well";
-  return fmt::format("{} ({:.2g} to {})", text, range->least_s.value_or(*life_s) / seconds_per_hour,
-                     range->most_s ? fmt::format("{:.2g}", *range->most_s / seconds_per_hour) : "ever");
+  return fmt::format("{} ({} to {})", text, plain_hours(range->least_s.value_or(*life_s)),
+                     range->most_s ? plain_hours(*range->most_s) : "ever");
 }
 
 std::string safety_text(double safety, double error_share) {

@@ -50,11 +50,14 @@ void write_fatigue(const std::filesystem::path& file, const Scene& scene, const 
 /// Weld toes, by rising life.
 void write_weld_fatigue(const std::filesystem::path& file, const BodyAnalysis& analysis);
 
-/// "endures", "1.2e+04 h": of a life in seconds.
+/// "20000 h", "3.1 h": two digits, without an exponent below a million hours.
+std::string hours_text(double life_s);
+
+/// "endures", "12000 h": of a life in seconds.
 std::string life_text(const std::optional<double>& life_s);
 
-/// The same with what the whole error of the stress leaves possible: "5e+03 h (4e+03 to 9e+03)", "endures;
-/// 1e+04 h with the stated error", "endures, its error not known", "5e+03 h, not known well", "0.01 h, beyond
+/// The same with what the whole error of the stress leaves possible: "5000 h (4000 to 9000)", "endures;
+/// 10000 h with the stated error", "endures, its error not known", "5000 h, not known well", "0.01 h, beyond
 /// the S-N curve". What endures alone does so with the error added.
 std::string life_text(const std::optional<double>& life_s, const LifeCertainty& certainty);
 

@@ -56,6 +56,7 @@ RunRecord read_run_record(const fs::path& file) {
     record.warnings = json.at("warnings").get<std::vector<std::string>>();
     record.kept_under = json.at("kept_under").get<std::map<std::string, std::string>>();
     for (const auto& line : json.at("table")) record.table += line.get<std::string>() + '\n';
+    for (const auto& line : json.at("full_table")) record.full_table += line.get<std::string>() + '\n';
     record.key = json.at("key").get<std::string>();
   } catch (const RecordJson::exception&) {
     return {};
@@ -104,7 +105,8 @@ void write_run_record(const fs::path& folder, const RunRecord& record) {
   const RecordJson json{{"key", record.key},
                         {"kept_under", record.kept_under},
                         {"warnings", record.warnings},
-                        {"table", lines_of(record.table)}};
+                        {"table", lines_of(record.table)},
+                        {"full_table", lines_of(record.full_table)}};
   std::string text;
   try {
     text = json.dump(1) + "\n";

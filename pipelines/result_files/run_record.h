@@ -29,7 +29,8 @@ struct RunRecord {
   std::string key;                                ///< run_key
   std::map<std::string, std::string> kept_under;  ///< SceneRun::kept_under
   std::vector<std::string> warnings;              ///< lines on stderr that belong to the results
-  std::string table;                              ///< as printed, ended by a line feed
+  std::string table{};                            ///< as printed, ended by a line feed
+  std::string full_table{};                       ///< as printed with -v, likewise
 };
 
 /// Leaves the record among results that wait for their places. None where the record would say less than the

@@ -6,9 +6,11 @@
 
 #include "meshes/values/utf8.h"
 #include "pipelines/files/replaceable.h"
+#include "pipelines/files/text_encoding.h"
 #include "pipelines/files/toml_tree.h"
 #include "pipelines/files/whole_file.h"
 #include "pipelines/names/name_fault.h"
+#include "pipelines/names/nearest_name.h"
 #include "pipelines/scene/body_kind.h"
 #include "pipelines/scene/machine_kind.h"
 #include "pipelines/scene/plausibility.h"
@@ -27,13 +29,31 @@ namespace {
   throw SceneError({{file.string(), 0, 0, "", "", remedy}});
 }
 
+/// The scene in the same directory with the nearest name; empty if none is near.
+std::filesystem::path nearest_scene(const std::filesystem::path& file) {
+  constexpr std::size_t most_files = 10'000;
+  const auto directory = file.parent_path();
+  std::vector<std::string> names;
+  std::error_code error;
+  std::filesystem::directory_iterator entries(directory.empty() ? "." : directory, error);
+  for (std::size_t n = 0; !error && entries != std::filesystem::directory_iterator() && n < most_files; ++n) {
+    if (entries->path().extension() == ".toml") names.push_back(entries->path().filename().string());
+    entries.increment(error);
+  }
+  std::sort(names.begin(), names.end());
+  const auto nearest = nearest_name(file.filename().string(), names);
+  return nearest.empty() ? std::filesystem::path() : directory / nearest;
+}
+
 std::string read_text(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status))
-    refuse_file(
-        file,
-        "there is no such file; give the path of a scene, such as pipelines/scenes/vibratory_mill.toml");
+  if (!std::filesystem::exists(status)) {
+    const auto nearest = nearest_scene(file);
+    refuse_file(file, nearest.empty() ? "there is no such file; give the path of a scene, such as "
+                                        "pipelines/scenes/vibratory_mill.toml"
+                                      : "there is no such file; did you mean \"" + nearest.string() + "\"?");
+  }
   if (std::filesystem::is_directory(status))
     refuse_file(file, "is a directory; give the path of a scene, a .toml file");
   constexpr std::uintmax_t most_bytes = 10'000'000;
@@ -42,6 +62,10 @@ std::string read_text(const std::filesystem::path& file) {
   note_input(file);
   auto text = whole_file(file, most_bytes);
   if (!text) refuse_file(file, "cannot be read; check its permissions");
+  if (const auto wide = wide_encoding_of(*text); !wide.empty())
+    throw SceneError(
+        {{file.string(), 1, 1, "", "",
+          "is not TOML: it is written in " + wide + ", and a scene is UTF-8; save it as UTF-8"}});
   return *std::move(text);
 }
 
@@ -80,7 +104,7 @@ void refuse_machine(SceneTable& root, SceneTable& machine, const std::string& ty
   else if (!type.empty())
     machine.refuse("type", "unknown machine; write one of " + machine_types());
   for (const char* key : {"effects", "sampling", "bearings", "zones", "results", "tolerance", "time_limit",
-                          "method", "sweep", "duty"})
+                          "method", "sweep", "duty", "limits"})
     root.know(key);
   for (const auto* kind : body_kinds())
     for (const auto& table : kind->tables()) root.know(table);
@@ -102,8 +126,8 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
 
 Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::vector<std::string>& settings,
                  const VersionReading& version) {
-  set_keys(tree, settings, file);
   SceneFindings findings;
+  findings.warnings = set_keys(tree, settings, file);
   findings.file = file.string();
   findings.are_noted = version.has_notes;
   SceneTable root(tree, "", findings);
@@ -122,6 +146,8 @@ Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::ve
     refuse_machine(root, machine, type);
     throw_sorted(findings.errors);
   }
+  scene.limits =
+      read_limits(root.table_or_empty("limits"));  // before the bodies, whose fatigue asks for a life
   SceneReading reading{root, machine, scene, findings, {}};
   kind->read(reading);
   scene.sampling = read_sampling(root.table_or_empty("sampling"), scene, findings);

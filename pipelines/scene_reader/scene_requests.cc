@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "pipelines/names/name_lists.h"
 #include "pipelines/names/nearest_name.h"
 #include "pipelines/names/units.h"
 #include "pipelines/scene_reader/scene_stages.h"
@@ -85,6 +86,33 @@ std::vector<BearingScene> read_bearings(SceneTable& root) {
     bearings.push_back(std::move(bearing));
   }
   return bearings;
+}
+
+LimitsScene read_limits(SceneTable table) {
+  LimitsScene limits;
+  limits.yield_safety = table.quantity_or("yield_safety", "1", between(1, 10), limits.yield_safety,
+                                          "FKM: severe consequences, the load is likely (j_p)");
+  limits.wanted_life_s = table.quantity_or("wanted_life", "s", positive(1e12), limits.wanted_life_s,
+                                           "20000 h: a machine that works eight hours a day at full load");
+  limits.dynamic_amplification =
+      table.quantity_or("dynamic_amplification", "1", between(1, 50), limits.dynamic_amplification,
+                        "what resonance may put on the largest stress");
+  limits.resonance_margin =
+      table.quantity_or("resonance_margin", "1", between(0, 0.9), limits.resonance_margin,
+                        "of a drive train's excitations from its frequencies (API 671)");
+  table.know("left_out");
+  if (!table.has("left_out")) {
+    table.finish();
+    return limits;
+  }
+  for (const auto& criterion : table.texts("left_out")) {
+    if (!contains(names_of_criteria(), criterion.text))
+      table.refuse("left_out", "\"" + criterion.text + "\" is no criterion; the verdict weighs " +
+                                   listed(names_of_criteria()));
+    limits.left_out.push_back(criterion.text);
+  }
+  table.finish();
+  return limits;
 }
 
 void read_results(SceneTable results, Scene& scene) {

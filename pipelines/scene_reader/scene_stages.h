@@ -26,6 +26,9 @@ ZoneRule read_zones(SceneTable zones);
 /// [[bearings]]
 std::vector<BearingScene> read_bearings(SceneTable& root);
 
+/// [limits]
+LimitsScene read_limits(SceneTable limits);
+
 /// [results]
 void read_results(SceneTable results, Scene& scene);
 

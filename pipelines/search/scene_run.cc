@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/load_patch.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/body_stages/analyse_body.h"
@@ -19,11 +20,11 @@
 #include "pipelines/cheap_models/axisymmetric_body.h"
 #include "pipelines/cheap_models/axisymmetric_run.h"
 #include "pipelines/cheap_models/beam_run.h"
-#include "pipelines/estimates/in_time.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/effects/effect_bounds.h"
 #include "pipelines/effects/effect_choice.h"
 #include "pipelines/estimates/fineness.h"
+#include "pipelines/estimates/in_time.h"
 #include "pipelines/estimates/submodels.h"
 #include "pipelines/refinement/refinement.h"
 #include "pipelines/refinement/singular_edge.h"
@@ -276,6 +277,7 @@ private:
     const auto stress = governing_stress(analysis);
     state.search.quantity = stress.name();
     state.search.steps.push_back(step_of(run_.scene, i, stress, analysis, seconds_since(state.step_start)));
+    clock_.note(text_of_step(analysis.scene.name, state.search));
     state.search.steps.back().refined = state.step ? to_string(state.step->part) : "";
     state.search.met = is_met(state.search, stress);
   }
