@@ -47,11 +47,16 @@ void check_samples(const std::string& name, const SampledCourse& samples, double
            "exceeds the period of " + number(period_rad / turn_rad) +
                " turns; raise the number of turns, or cut the samples");
   const ArrayXd steps = samples.angle_rad.tail(n - 1) - samples.angle_rad.head(n - 1);
-  const double gap_rad = std::max(steps.maxCoeff(), period_rad - span_rad);
-  if (gap_rad > turn_rad / 2 * (1 + 1e-9))
-    refuse(name + " gap in the angle", gap_rad,
+  // Samples on both sides of a gap say that the file goes on there; where the period closes nothing does.
+  constexpr double most_within = 2.0 / 3;
+  const double closing_rad = period_rad - span_rad, within_rad = steps.maxCoeff();
+  if (closing_rad > turn_rad / 2 * (1 + 1e-9))
+    refuse(name + " gap in the angle", closing_rad,
            "leaves more than half a turn without a sample; the samples must cover the period of " +
                number(period_rad / turn_rad) + " turns");
+  if (within_rad > turn_rad * most_within)
+    refuse(name + " gap in the angle", within_rad,
+           "leaves more than two thirds of a turn without a sample between two of them; give more samples");
 }
 
 void check_harmonic(const std::string& name, const HarmonicCourse& harmonic, const TimeGrid& grid) {
@@ -169,7 +174,8 @@ void warn_of_gap_within(const TableLoad& load, const SampledCourse& samples, Loa
   const double gap_rad = steps.maxCoeff(&widest);
   std::nth_element(steps.begin(), steps.begin() + (n - 1) / 2, steps.end());
   const double usual_rad = steps[(n - 1) / 2];
-  if (gap_rad <= unusual * usual_rad * (1 + 1e-9) || gap_rad < worth_a_word_rad) return;
+  const bool is_much = gap_rad > turn_rad / 2 * (1 + 1e-9);
+  if (!is_much && (gap_rad <= unusual * usual_rad * (1 + 1e-9) || gap_rad < worth_a_word_rad)) return;
   history.warnings.push_back(load.effect + "/" + name_of(load) + " has no sample over " +
                              in_degrees(gap_rad) + " degrees from " + in_degrees(samples.angle_rad[widest]) +
                              " degrees on, and elsewhere one every " + in_degrees(usual_rad) +

@@ -19,6 +19,7 @@ namespace kinetics {
 struct SampledCourse {
   Eigen::ArrayXd angle_rad;  ///< of the drive, strictly ascending, at least four; spans at most the period
   Eigen::ArrayXd values;     ///< SI unit of the component
+  std::string origin{};      ///< where the samples come from and how they were read, for people; may be empty
 };
 
 /// value(phi) = mean + amplitude cos(order phi - phase), phi from the first instant
@@ -39,6 +40,7 @@ struct TableLoad {
 struct LoadTable {
   double speed_rad_s = 0;  ///< of the drive, > 0: ties time and angle together
   std::vector<TableLoad> loads;
+  int turns = 1;  ///< after which the samples repeat, where the user says so; else a grid says it
 };
 
 /// What making a load periodic and resampling it has changed, in the unit of the load.
@@ -94,10 +96,10 @@ LoadHistory loads_at(const LoadTable& table, const std::vector<std::string>& eff
 /// smallest sample by more than 3 % of the largest are warned of.
 /// @throws MachineRefused naming parameter, value and remedy: no load, an unknown effect, NaN or
 ///         infinity, fewer than four samples, angles that do not ascend or span more than the period, samples
-///         that leave more than half a turn uncovered, instants that miss the largest sample by more than 10
-///         % of it (less is told by samples_passed_over), an order that does not fit the period or
-///         that two instants per period or fewer would alias, speed not positive, the same load twice in one
-///         effect
+///         that leave more than half a turn uncovered where the period closes or two thirds of one elsewhere,
+///         instants that miss the largest sample by more than 10 % of it (less is told by
+///         samples_passed_over), an order that does not fit the period or that two instants per period or
+///         fewer would alias, speed not positive, the same load twice in one effect
 LoadHistory compute_loads(const LoadTable& table, const std::vector<std::string>& effects,
                           const TimeGrid& grid);
 

@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <string_view>
 #include <utility>
+
+#include "meshes/values/utf8.h"
+#include "pipelines/names/odd_characters.h"
 
 namespace pipelines {
 namespace {
@@ -94,6 +98,76 @@ void refuse_endless_names(const std::string& text) {
   }
 }
 
+SourcePosition position_of(std::string_view text, std::size_t byte) {
+  SourcePosition at{1, 1};
+  for (const char c : text.substr(0, byte)) {
+    if (c == '\n') at = {at.line + 1, 0};
+    if ((static_cast<unsigned char>(c) & 0xC0) != 0x80) ++at.column;
+  }
+  return at;
+}
+
+/// Length of the comment or of the text in quotes that begins here; 1 for anything else. A text that is not
+/// closed has length 1 too: what keeps it open may stand in it.
+std::size_t length_of_free_text(std::string_view rest) {
+  if (rest[0] == '#') return std::min(rest.find('\n'), rest.size());
+  if (rest[0] != '"' && rest[0] != '\'') return 1;
+  const std::string three(3, rest[0]);
+  if (rest.substr(0, 3) == three) {
+    const auto end = rest.find(three, 3);
+    return end == std::string_view::npos ? 1 : end + 3;
+  }
+  for (std::size_t i = 1; i < rest.size() && rest[i] != '\n'; ++i) {
+    if (rest[i] == '\\' && rest[0] == '"')
+      ++i;
+    else if (rest[i] == rest[0])
+      return i + 1;
+  }
+  return 1;
+}
+
+/// The first character outside texts and comments that looks like one of a keyboard and is another.
+/// @param text  that is no TOML
+std::optional<OddCharacter> odd_character_outside_texts(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = length_of_free_text(text.substr(i));
+    const auto next = length > 1 ? std::nullopt : odd_character_in(text.substr(i, 3));
+    const bool is_byte_order_mark = i == 0 && text[0] == '\xEF';
+    if (next && next->byte == 0 && !is_byte_order_mark) return OddCharacter{i, next->name, next->remedy};
+    i += length;
+  }
+  return std::nullopt;
+}
+
+std::string hexadecimal(unsigned char byte) {
+  constexpr const char* digits = "0123456789ABCDEF";
+  return std::string("0x") + digits[byte / 16] + digits[byte % 16];
+}
+
+std::size_t first_byte_that_is_no_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t length = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+    if (!meshes::is_utf8(text.substr(i, length))) return i;
+    i += length;
+  }
+  return text.size();
+}
+
+/// Why a text is no TOML, better than the parser knows it; falls back on what that says.
+TomlSyntaxError syntax_error(std::string_view text, const toml::parse_error& error) {
+  if (!meshes::is_utf8(text)) {
+    const std::size_t good = first_byte_that_is_no_utf8(text);
+    return TomlSyntaxError(position_of(text, good),
+                           "the byte " + hexadecimal(static_cast<unsigned char>(text[good])) +
+                               " is no UTF-8, perhaps Windows-1252 (Latin-1); save the file as UTF-8");
+  }
+  if (const auto odd = odd_character_outside_texts(text))
+    return TomlSyntaxError(position_of(text, odd->byte),
+                           odd->name + " stands outside texts in quotes; " + odd->remedy);
+  return TomlSyntaxError(to_position(error.source().begin), std::string(error.description()));
+}
+
 TomlNode convert(const toml::node& node, const SourceLines& lines) {
   TomlNode result;
   result.at = to_position(node.source().begin);
@@ -164,7 +238,7 @@ TomlNode parse_toml(const std::string& text) {
     const toml::table table = toml::parse(std::string_view(text));
     return convert(table, SourceLines(text));
   } catch (const toml::parse_error& error) {
-    throw TomlSyntaxError(to_position(error.source().begin), std::string(error.description()));
+    throw syntax_error(text, error);
   }
 }
 

@@ -45,12 +45,16 @@ public:
 
   void read(SceneReading& reading) const override {
     auto& [root, machine, scene, findings, bodies] = reading;
-    auto table = read_load_table(machine, scene.file.parent_path(), findings);
+    auto table =
+        read_load_table(machine, scene.file.parent_path(), root.whole_at("sampling", "turns"), findings);
     root.know("effects");
     if (!table.loads.empty()) read_effects(root, {kinetics::load_table_effects(table)}, scene, findings);
     scene.machine = std::move(table);
   }
-  // The period is a turn: samples repeat after as many as the user says.
+  /// A turn, or those of a file whose turns are taken as they are.
+  Period period(const Scene& scene, int, bool) const override {
+    return {true, table_in(scene.machine).turns};
+  }
   void doubt(const Scene& scene, Doubts& doubts) const override {
     doubts.speed("machine", table_in(scene.machine).speed_rad_s);
   }

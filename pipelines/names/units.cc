@@ -14,6 +14,7 @@
 
 #include "pipelines/common/constants.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/names/odd_characters.h"
 
 namespace pipelines {
 namespace {
@@ -39,6 +40,10 @@ ut_system* read_database() {
     // Everyday symbols that udunits lacks; an existing meaning is left alone.
     for (const auto& [symbol, name] : {std::pair{"deg", "arc_degree"}, std::pair{"rev", "turn"}})
       if (const Unit unit(ut_get_unit_by_name(system, name)); unit)
+        ut_map_symbol_to_unit(symbol, UT_ASCII, unit.get());
+    for (const auto& [symbol, product] : {std::pair{"Nm", "N m"}, std::pair{"Nmm", "N mm"}})
+      if (const Unit unit(ut_parse(system, product, UT_ASCII));
+          unit && !Unit(ut_get_unit_by_symbol(system, symbol)))
         ut_map_symbol_to_unit(symbol, UT_ASCII, unit.get());
     return system;
   }
@@ -151,14 +156,19 @@ NumberAndRest split(const std::string& quantity, const std::string& si_unit) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc::invalid_argument)
+  if (error == std::errc::invalid_argument) {
+    if (const auto odd = odd_character_in(text); odd && odd->byte == 0)
+      throw UnitError("does not begin with a number, but with " + odd->name + "; " + odd->remedy);
     throw UnitError("does not begin with a number; write a number and a unit, such as " + example(si_unit));
+  }
   if (error == std::errc::result_out_of_range || !std::isfinite(number))
     throw UnitError("is not a finite number; write one such as " + example(si_unit));
   const std::string rest(trimmed(text.substr(static_cast<std::size_t>(end - text.data()))));
   if (!rest.empty() && rest[0] == ',')
     throw UnitError("has a comma in the number; decimals are written with a point, such as " +
                     example(si_unit));
+  if (const auto odd = odd_character_in(rest))
+    throw UnitError("has " + odd->name + " in its unit; " + odd->remedy);
   return {number, rest};
 }
 
@@ -172,6 +182,12 @@ struct Conversion {
   }
 };
 
+/// The parser of udunits is not reentrant.
+std::mutex& parser_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 /// Of the texts that were read before: sweeps read a scene thousands of times. Emptied beyond 1000 entries.
 std::map<std::pair<std::string, std::string>, Conversion>& known_conversions() {
   static std::map<std::pair<std::string, std::string>, Conversion> known;
@@ -184,8 +200,7 @@ std::map<std::pair<std::string, std::string>, Conversion>& known_conversions() {
 
 double to_si(const std::string& quantity, const std::string& si_unit) {
   const auto [number, unit_text] = split(quantity, si_unit);
-  static std::mutex mutex;  // the parser of udunits is not reentrant
-  const std::lock_guard<std::mutex> lock(mutex);
+  const std::lock_guard<std::mutex> lock(parser_mutex());
   const auto finite = [&](double value) {
     if (!std::isfinite(value))
       throw UnitError("is not finite in " + si_unit + "; write a number such as " + example(si_unit));
@@ -224,6 +239,12 @@ double to_si(const std::string& quantity, const std::string& si_unit) {
   if (!converter) throw UnitError("cannot be converted to " + si_unit + "; write " + example(si_unit));
   Conversion conversion{std::move(converter), turns_to_radians};
   return finite(known.emplace(std::pair(unit_text, si_unit), std::move(conversion)).first->second(number));
+}
+
+bool is_unit(const std::string& text) {
+  if (text.empty() || !is_well_formed(text)) return false;
+  const std::lock_guard<std::mutex> lock(parser_mutex());
+  return Unit(ut_parse(unit_system(), text.c_str(), UT_UTF8)) != nullptr;
 }
 
 double parse_ratio(const std::string& text) {

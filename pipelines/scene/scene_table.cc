@@ -62,6 +62,20 @@ bool SceneTable::has_text(const std::string& name) const {
   return entry != nullptr && entry->value.kind == TomlNode::Kind::text;
 }
 
+bool SceneTable::has_table(const std::string& name) const {
+  const TomlEntry* const entry = node_->find(name);
+  return entry != nullptr && entry->value.kind == TomlNode::Kind::table;
+}
+
+int SceneTable::whole_at(const std::string& table, const std::string& name) const {
+  constexpr std::int64_t most = 1'000'000'000;
+  const TomlEntry* const outer = node_->find(table);
+  const TomlEntry* const entry = outer == nullptr ? nullptr : outer->value.find(name);
+  const bool is_whole = entry != nullptr && entry->value.kind == TomlNode::Kind::integer;
+  return is_whole && entry->value.integer >= 1 && entry->value.integer <= most ? int(entry->value.integer)
+                                                                               : 0;
+}
+
 std::vector<std::string> SceneTable::names() const {
   std::vector<std::string> names;
   for (const auto& entry : node_->entries) names.push_back(entry.key);

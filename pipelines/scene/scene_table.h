@@ -33,6 +33,10 @@ public:
   bool is_present() const noexcept { return is_present_; }
   bool has(const std::string& name) const;
   bool has_list(const std::string& name) const;  ///< an array stands there
+  bool has_table(const std::string& name) const;
+  /// The whole number, 1 to 1e9, under that key of a table within this one; 0 if none stands there. Neither
+  /// makes a key known nor reports.
+  int whole_at(const std::string& table, const std::string& name) const;
   bool has_text(const std::string& name) const;  ///< a text stands there
   /// That very text stands there.
   bool holds(const std::string& name, const std::string& text) const {

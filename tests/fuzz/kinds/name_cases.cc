@@ -6,7 +6,7 @@
 
 #include "pipelines/channels/load_files.h"
 #include "pipelines/files/hdf5_file.h"
-#include "pipelines/files/table_file.h"
+#include "pipelines/tables/table_file.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/scene/scene.h"
 #include "tests/fuzz/kinds/samples.h"

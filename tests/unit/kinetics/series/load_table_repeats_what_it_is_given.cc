@@ -240,6 +240,17 @@ TEST(LoadTable, SamplesThatLeaveAGapAreWarnedOf) {
       << warnings_of(with_a_gap);
   for (const auto& complete : {whole, with_one_lost, {0, 1, 2, 3, 90, 180, 270, 359}})
     EXPECT_EQ(warnings_of(complete).find("no sample over"), std::string::npos) << warnings_of(complete);
+  // The file goes on behind a gap of more than half a turn: it is told, and refused beyond two thirds.
+  EXPECT_NE(warnings_of({0, 58, 115, 173, 360}).find("no sample over 187 degrees from 173 degrees on"),
+            std::string::npos)
+      << warnings_of({0, 58, 115, 173, 360});
+  try {
+    warnings_of({0, 10, 20, 30, 360});
+    ADD_FAILURE() << "accepted";
+  } catch (const kinetics::MachineRefused& refused) {
+    EXPECT_NE(std::string(refused.what()).find("more than two thirds of a turn"), std::string::npos)
+        << refused.what();
+  }
 }
 
 TEST(LoadTable, StatesWhatMakingItPeriodicChanges) {

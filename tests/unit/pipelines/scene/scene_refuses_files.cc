@@ -76,6 +76,28 @@ TEST(scene_file, BytesThatAreNoText) {
   EXPECT_THROW(pipelines::read_scene(file), pipelines::SceneError);
 }
 
+// Editors of Windows save such files. Red where the parser says of them only that a sign is missing.
+TEST(scene_file, InAnotherEncodingIsNamed) {
+  const auto message = [](const std::string& bytes) {
+    const ScratchFile file = written("encoded.toml", bytes);
+    try {
+      pipelines::read_scene(file);
+    } catch (const pipelines::SceneError& refused) {
+      return std::string(refused.what());
+    }
+    return std::string("accepted");
+  };
+  const std::string text = "title = \"a\"\nx = 1\n";
+  std::string wide = "\xff\xfe";
+  for (const char c : text) wide += std::string{c, '\0'};
+  EXPECT_NE(message(wide).find(":1:1: is not TOML: it is written in UTF-16 LE"), std::string::npos)
+      << message(wide);
+  const std::string latin = message("title = \"a\"\nx = \"M\xC3\xBChle, M\xFChle\"\n");
+  EXPECT_NE(latin.find(":2:14: is not TOML: the byte 0xFC is no UTF-8, perhaps Windows-1252"),
+            std::string::npos)
+      << latin;
+}
+
 TEST(toml_tree, KnowsWhereValuesStandAndHowTheyWereWritten) {
   const auto tree =
       pipelines::parse_toml("title = 'Mühle' # ü\r\n[a]\nx = [ 1_000, \"µ\",  0x10 ]\r\nb.c = 1.50e3\n");
