@@ -1,4 +1,4 @@
-/// Questions to a mill beside its loads: which springs, and how large at any angle.
+/// A question to a mill beside its loads: how large at any angle.
 #pragma once
 
 #include <iosfwd>
@@ -6,12 +6,6 @@
 #include "pipelines/scene/scene.h"
 
 namespace pipelines {
-
-/// The stiffness of the springs that loads the frame's bearings least, by RMS and by peak, and the resonances
-/// on the way; with the warnings of the scene's loads.
-/// @param json  as JSON instead of a table
-/// @throws StageRefused if the scene's machine is no vibratory mill, or as kinetics::choose_springs
-void print_spring_choice(std::ostream& out, const Scene& scene, bool json);
 
 /// Extremes over all angles, beside those of the scene's window. Of a vibratory mill: over all pairs of drive
 /// and charge angles. Of a planetary mill: the axle's load over the carrier's turn in closed form (its
