@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include "pipelines/command_options/output_files.h"
+#include "pipelines/command_options/result_place.h"
 #include "pipelines/command_options/scene_machine.h"
 #include "pipelines/command_options/scene_options.h"
 #include "pipelines/drawing/offscreen_window.h"
@@ -22,8 +23,9 @@ void torsion(const TorsionCommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene, options.settings);
   auto files = torsion_files();
   files.insert(files.end(), {"campbell.png", "campbell.svg", "modes.png", "modes.svg"});
+  if (!options.output.empty()) require_own_variant(options.output, variant_of(options));
   std::optional<StagedResults> staged;
-  if (!options.output.empty()) staged.emplace(options.output, names_of(files));
+  if (!options.output.empty()) staged.emplace(options.output, names_of(files), "-o", variant_of(options));
   const TorsionReport report = report_torsion(scene, machine_with_masses(scene));
   std::vector<std::string> charts;
   if (staged) {
@@ -36,7 +38,7 @@ void torsion(const TorsionCommandOptions& options, std::ostream& out) {
     out << torsion_json(scene, report);
     return;
   }
-  print_torsion(out, scene, report);
+  print_torsion(out, scene, report, options.verbosity() == Verbosity::verbose);
   for (const auto& warning : scene.warnings) out << "  warning: " << warning << '\n';
   print_files(out, options.output, charts);
 }
@@ -49,6 +51,7 @@ void add_torsion_command(CLI::App& app, ChosenCommand& chosen) {
       app, "torsion", "natural frequencies, forced response and resonances of a drive train", *options);
   command->add_option("-o,--output", options->output,
                       "write modes, response, Campbell table to this directory");
+  add_force_option(*command, *options);
   command->add_flag("--json", options->json, "print JSON instead of the tables");
   command->callback(to_choose(chosen, options, torsion));
 }

@@ -15,6 +15,20 @@ namespace pipelines {
 
 namespace {
 
+/// With which amplitude a frequency turns up in the elements' torques, over their largest.
+double torque_share(const kinetics::ForcedResponse& forced, const std::vector<ElementTorque>& torques,
+                    double frequency_rad_s) {
+  constexpr double same = 1e-9;
+  double most = 0;
+  for (const auto& harmonic : forced.harmonics) {
+    if (std::abs(harmonic.frequency_rad_s - frequency_rad_s) > same * frequency_rad_s) continue;
+    for (std::size_t e = 0; e < torques.size(); ++e)
+      if (torques[e].largest_Nm > 0)
+        most = std::max(most, std::abs(harmonic.torque_Nm[Eigen::Index(e)]) / torques[e].largest_Nm);
+  }
+  return most;
+}
+
 TorsionReport report_of(const Scene& scene, const Machine& machine) {
   const auto* train = std::get_if<kinetics::DriveTrain>(&machine);
   if (!train)
@@ -26,7 +40,6 @@ TorsionReport report_of(const Scene& scene, const Machine& machine) {
   TorsionReport report;
   report.modes = kinetics::natural_modes(on);
   report.forced = kinetics::forced_response(on);
-  report.margins = kinetics::resonance_margins(on);
   report.campbell = kinetics::campbell_table(on, scene.torsion.slowest_rad_s, scene.torsion.fastest_rad_s,
                                              scene.torsion.n_speeds, scene.torsion.orders);
   const auto history = compute_loads(machine, effects, scene.sampling);
@@ -45,6 +58,9 @@ TorsionReport report_of(const Scene& scene, const Machine& machine) {
                               largest(".reduced_torque"),
                               on.elements[e].diameter_m > 0 ? largest(".shear_stress") : 0});
   }
+  for (const auto& margin : kinetics::resonance_margins(on))
+    report.margins.push_back(
+        {margin, torque_share(report.forced, report.torques, margin.line.frequency_rad_s)});
   if (scene.torsion.transient) {
     report.transient = kinetics::transient(on, transient_run(scene.torsion));
     if (const auto coarse = coarse_transient(on, scene.torsion,
@@ -57,6 +73,10 @@ TorsionReport report_of(const Scene& scene, const Machine& machine) {
 }
 
 }  // namespace
+
+bool LineMargin::matters() const {
+  return std::abs(margin) <= near_resonance || torque_share >= felt_torque_share;
+}
 
 TorsionReport report_torsion(const Scene& scene, const Machine& machine) {
   return with_place(scene.machine_origin, [&] { return report_of(scene, machine); });

@@ -21,11 +21,24 @@ struct ElementTorque {
   double largest_shear_Pa = 0;    ///< K_t T r / I_p; zero where no diameter is given
 };
 
+/// An excitation frequency against the nearest natural frequency, and what it brings.
+struct LineMargin : kinetics::ResonanceMargin {
+  /// Torque's amplitude at this frequency, of all excitations that have it, over the largest torque of the
+  /// same element: of the element where that is most.
+  double torque_share = 0;
+
+  /// Near a natural frequency, or felt: what tables show. The rest is counted.
+  bool matters() const;
+};
+
+/// What `matters` means: distance from a natural frequency, share of a torque.
+inline constexpr double near_resonance = 0.2, felt_torque_share = 0.05;
+
 struct TorsionReport {
   kinetics::NaturalModes modes;
   kinetics::ForcedResponse forced;
   std::vector<ElementTorque> torques;
-  std::vector<kinetics::ResonanceMargin> margins;
+  std::vector<LineMargin> margins;  ///< closest first
   kinetics::CampbellTable campbell;
   std::optional<kinetics::Transient> transient;        ///< where the scene asks for it
   std::optional<kinetics::PublishedTables> published;  ///< where the scene asks for them
@@ -35,7 +48,8 @@ struct TorsionReport {
 /// @throws StageRefused if the scene's machine is no drive train; as kinetics does; NotFinite
 TorsionReport report_torsion(const Scene& scene, const Machine& machine);
 
-void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& report);
+/// @param all  every excitation frequency, not only those that matter
+void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& report, bool all = false);
 std::string torsion_json(const Scene& scene, const TorsionReport& report);
 
 /// In `directory`: modes.csv (frequencies, shapes, energy shares), forced.csv (amplitude and phase of every

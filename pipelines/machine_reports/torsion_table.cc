@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -65,9 +66,34 @@ CsvColumn numbers(std::string name, std::string unit, const Eigen::ArrayXd& valu
           std::vector<double>(values.data(), values.data() + values.size())};
 }
 
+/// Those that matter, or all; at least the closest one.
+void print_margins(std::ostream& out, const std::vector<LineMargin>& margins, bool all) {
+  if (margins.empty()) return;
+  out << fmt::format("\n  {:<36}{:>12}{:>8}{:>12}{:>10}{:>15}{:>15}\n", "excitation", "Hz", "mode",
+                     "natural Hz", "margin", "amplification", "of the torque");
+  std::size_t n_shown = 0;
+  for (const auto& m : margins) {
+    if (!all && !m.matters() && &m != &margins.front()) continue;
+    ++n_shown;
+    out << fmt::format("  {:<36}{:>12.6g}{:>8}{:>12.6g}{:>9.1f}%{:>15.3g}{:>14.1f}%\n", line_name(m.line),
+                       m.line.frequency_rad_s / two_pi, m.mode, m.natural_frequency_rad_s / two_pi,
+                       100 * m.margin, m.amplification, 100 * m.torque_share);
+  }
+  if (n_shown < margins.size())
+    out << fmt::format(
+        "    and {} more, farther than {:g} % from a natural frequency and below {:g} % of every torque: "
+        "margins.csv, --json, torsion -v\n",
+        margins.size() - n_shown, 100 * near_resonance, 100 * felt_torque_share);
+  const bool is_damped =
+      std::any_of(margins.begin(), margins.end(), [](const auto& m) { return m.damping_ratio > 0; });
+  out << (is_damped ? "    amplification with the damping of the mode\n"
+                    : "    amplification without damping: the scene gives none (modal_damping, loss_factor, "
+                      "damping)\n");
+}
+
 }  // namespace
 
-void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& report) {
+void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& report, bool all) {
   const auto& train = train_of(scene);
   out << fmt::format("\n{}: {} inertias, reference shaft {} at {:.6g} rpm\n", scene.title,
                      train.inertias.size(), train.reference_shaft, train.reference_speed_rad_s / rpm);
@@ -89,12 +115,7 @@ void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& r
     out << fmt::format("  unbalanced mean torque: the reference shaft gains {:.4g} rad/s2\n",
                        report.forced.rigid_acceleration_rad_s2);
 
-  out << fmt::format("\n  {:<36}{:>12}{:>8}{:>12}{:>10}{:>15}\n", "excitation", "Hz", "mode", "natural Hz",
-                     "margin", "amplification");
-  for (const auto& m : report.margins)
-    out << fmt::format("  {:<36}{:>12.6g}{:>8}{:>12.6g}{:>9.1f}%{:>15.3g}\n", line_name(m.line),
-                       m.line.frequency_rad_s / two_pi, m.mode, m.natural_frequency_rad_s / two_pi,
-                       100 * m.margin, m.amplification);
+  print_margins(out, report.margins, all);
 
   out << fmt::format("\n  crossings from {:.6g} to {:.6g} rpm of the reference shaft\n",
                      report.campbell.speed_rad_s[0] / rpm,
@@ -128,6 +149,8 @@ Json margins_json(const TorsionReport& report) {
          {"mode", m.mode},
          {"natural_frequency_rad_s", m.natural_frequency_rad_s},
          {"margin", m.margin},
+         {"damping_ratio", m.damping_ratio},
+         {"torque_share", m.torque_share},
          {"amplification", std::isfinite(m.amplification) ? Json(m.amplification) : Json(nullptr)}});
   return json;
 }
@@ -228,7 +251,7 @@ void write_torsion_files(const std::filesystem::path& directory, const Scene& sc
 
   std::vector<std::string> excitation;
   std::vector<std::int64_t> mode;
-  std::vector<double> line, natural, margin, amplification;
+  std::vector<double> line, natural, margin, amplification, damping, share;
   for (const auto& m : report.margins) {
     excitation.push_back(line_name(m.line));
     mode.push_back(m.mode);
@@ -236,13 +259,17 @@ void write_torsion_files(const std::filesystem::path& directory, const Scene& sc
     natural.push_back(m.natural_frequency_rad_s);
     margin.push_back(m.margin);
     amplification.push_back(m.amplification);
+    damping.push_back(m.damping_ratio);
+    share.push_back(m.torque_share);
   }
   write_csv(directory / "margins.csv", {{"excitation", "", excitation},
                                         {"frequency", "rad/s", line},
                                         {"mode", "", mode},
                                         {"natural_frequency", "rad/s", natural},
                                         {"margin", "1", margin},
-                                        {"amplification", "1", amplification}});
+                                        {"amplification", "1", amplification},
+                                        {"damping_ratio", "1", damping},
+                                        {"torque_share", "1", share}});
 }
 
 }  // namespace pipelines

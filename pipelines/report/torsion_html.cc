@@ -40,7 +40,7 @@ void add_resonance_margins(HtmlPage& page, const Json& summary) {
       rows.push_back({m.at("excitation").get<std::string>(), number(m.at("frequency_rad_s"), 1 / two_pi),
                       number(m.at("mode"), 1, "{:.0f}"), number(m.at("natural_frequency_rad_s"), 1 / two_pi),
                       number(m.at("margin"), 100, "{:.1f} %"), number(m.at("amplification"), 1, "{:.3g}"),
-                      m.contains("torque_share") ? number(m.at("torque_share"), 100, "{:.2g} %") : "-"});
+                      m.contains("torque_share") ? number(m.at("torque_share"), 100, "{:.1f} %") : "-"});
   if (rows.empty()) return;
   page.heading(2, "Resonance margins");
   page.table({"excitation", "Hz", "mode", "natural Hz", "margin", "amplification", "of the torque"}, rows);
