@@ -19,6 +19,14 @@
 namespace pipelines {
 namespace {
 
+/// The ports that a mill's charge presses on.
+std::vector<std::string> walls_under_charge(const BodyAnalysis& analysis) {
+  std::vector<std::string> walls;
+  for (const auto& port : analysis.mesh.ports)
+    if (usual_pressure(analysis.scene, port.name).is_charge) walls.push_back(port.name);
+  return walls;
+}
+
 Peak headline(const BodyAnalysis& analysis) {
   const auto& maximum = analysis.envelope.von_mises;
   Peak peak;
@@ -129,7 +137,7 @@ BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, Bod
   require_finite(body.name, analysis.envelope);
   clock.run("zones", [&] {
     analysis.places = locate_nodes(analysis.responses.nodes, analysis.mesh.features, analysis.mesh.ports,
-                                   analysis.mesh.sharp_edges);
+                                   analysis.mesh.sharp_edges, walls_under_charge(analysis));
     analysis.peak = headline(analysis);
     analysis.principal_node = peak_node(analysis.envelope.principal.value_Pa, analysis.places);
     analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);

@@ -179,6 +179,8 @@ std::string to_string(Place place) {
   switch (place) {
     case Place::loaded_seat:
       return "under seat pressure";
+    case Place::charged_wall:
+      return "under the charge's pressure";
     case Place::free_surface:
       return "free surface";
     case Place::interior:
@@ -188,7 +190,8 @@ std::string to_string(Place place) {
 }
 
 NodePlaces locate_nodes(const fem::Nodes& nodes, const std::vector<meshes::Feature>& features,
-                        const std::vector<meshes::Port>& ports, const std::vector<meshes::SharpEdge>& edges) {
+                        const std::vector<meshes::Port>& ports, const std::vector<meshes::SharpEdge>& edges,
+                        const std::vector<std::string>& walls) {
   NodePlaces places;
   places.feature.assign(nodes.n, -1);
   places.place.assign(nodes.n, Place::interior);
@@ -209,10 +212,12 @@ NodePlaces locate_nodes(const fem::Nodes& nodes, const std::vector<meshes::Featu
   for (std::size_t i = 0; i < nodes.n; ++i) {
     if (places.feature[i] < 0) continue;
     const int id = features[std::size_t(places.feature[i])].boundary_id;
-    const bool loaded = std::any_of(ports.begin(), ports.end(), [&](const auto& port) {
-      return port.kind != meshes::Port::Kind::face && port.boundary_id == id;
+    const auto port = std::find_if(ports.begin(), ports.end(), [&](const auto& p) {
+      return p.kind != meshes::Port::Kind::face && p.boundary_id == id;
     });
-    places.place[i] = loaded ? Place::loaded_seat : Place::free_surface;
+    places.place[i] = port == ports.end()                                                ? Place::free_surface
+                      : std::find(walls.begin(), walls.end(), port->name) != walls.end() ? Place::charged_wall
+                                                                                         : Place::loaded_seat;
   }
   for (const auto& edge : edges) exclude_around(nodes, edge, places);
   return places;

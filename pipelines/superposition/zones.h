@@ -13,8 +13,10 @@
 
 namespace pipelines {
 
-/// Whether a node lies under a load, on free surface, or inside the body.
-enum class Place { loaded_seat, free_surface, interior };
+/// Whether a node lies under a load, on free surface, or inside the body. The charge of a mill presses on a
+/// wall, a ring or a pin on a seat.
+enum class Place { loaded_seat, charged_wall, free_surface, interior };
+/// "under seat pressure", "under the charge's pressure", "free surface", "interior"
 std::string to_string(Place place);
 
 /// Where each node of a body lies, from the features of its mesh.
@@ -26,8 +28,10 @@ struct NodePlaces {
   std::vector<char> excluded;  ///< per node: within the exclusion distance of a sharp re-entrant edge
 };
 
+/// @param walls  names of the ports that a mill's charge presses on
 NodePlaces locate_nodes(const fem::Nodes& nodes, const std::vector<meshes::Feature>& features,
-                        const std::vector<meshes::Port>& ports, const std::vector<meshes::SharpEdge>& edges);
+                        const std::vector<meshes::Port>& ports, const std::vector<meshes::SharpEdge>& edges,
+                        const std::vector<std::string>& walls = {});
 
 /// The feature that a node lies on, or of an interior one the nearest; empty if the body has none.
 std::string feature_at(const fem::Nodes& nodes, const NodePlaces& places, std::size_t node);
@@ -37,8 +41,8 @@ bool is_left_out(const std::array<double, 3>& point, int boundary_id,
                  const std::vector<meshes::SharpEdge>& edges);
 
 /// Distance of every node from the border of what is left out, negative within; exact of nodes in cells that
-/// the border passes through and within, elsewhere the largest exclusion distance. Empty where nothing is left
-/// out.
+/// the border passes through and within, elsewhere the largest exclusion distance. Empty where nothing is
+/// left out.
 std::vector<double> beyond_left_out_m(const fem::Nodes& nodes, const NodePlaces& places,
                                       const std::vector<meshes::SharpEdge>& edges);
 

@@ -54,6 +54,18 @@ TEST(Zones, NamedAfterTheMostTellingFeature) {
   EXPECT_EQ(row.places().place[9 * 5], pipelines::Place::loaded_seat);
 }
 
+// A mill's charge is no seat: red if its wall is told as one.
+TEST(Zones, TheChargePressesOnItsWall) {
+  using pipelines::Place;
+  const Row row(3);
+  const auto places = pipelines::locate_nodes(row.nodes, row.features, row.ports, {}, {"seat"});
+  EXPECT_EQ(places.place[9 * 5], Place::charged_wall);
+  EXPECT_EQ(to_string(places.place[9 * 5]), "under the charge's pressure");
+  EXPECT_EQ(places.place[0], Place::free_surface);
+  const auto others = pipelines::locate_nodes(row.nodes, row.features, row.ports, {}, {"another"});
+  EXPECT_EQ(to_string(others.place[9 * 5]), "under seat pressure");
+}
+
 TEST(Zones, SharpEdgesHoldNoPeak) {
   Row row(2);
   row.layer(0, 10);
