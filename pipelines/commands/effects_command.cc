@@ -31,8 +31,9 @@ void effects(const EffectsCommandOptions& options, std::ostream& out) {
     out << with_effects_of_bodies(effects_json(scene, worth), scene);
     return;
   }
-  print_effects(out, scene, worth);
-  print_effects_of_bodies(out, scene);
+  const bool all = options.verbosity() == Verbosity::verbose;
+  print_effects(out, scene, worth, all);
+  print_effects_of_bodies(out, scene, all);
   if (scene.effect_choice.open && !scene.bodies.empty())
     out << "  effects = \"auto\" is judged by the loads on the bodies in a run; `check` lists what goes\n";
 }

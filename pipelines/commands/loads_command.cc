@@ -11,6 +11,7 @@
 #include "pipelines/channels/load_statistics.h"
 #include "pipelines/command_options/option_value.h"
 #include "pipelines/command_options/output_files.h"
+#include "pipelines/command_options/result_place.h"
 #include "pipelines/command_options/scene_options.h"
 #include "pipelines/drawing/offscreen_window.h"
 #include "pipelines/effects/body_effect_report.h"
@@ -89,8 +90,10 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
   Scene scene = read_scene(options.scene, options.settings);
   require_outputs(options);
   std::optional<StagedResults> statistics;
-  if (!options.statistics.empty())
-    statistics.emplace(options.statistics, names_of(statistics_files()), "--statistics");
+  if (!options.statistics.empty()) {
+    require_own_variant(options.statistics, variant_of(options), "--statistics");
+    statistics.emplace(options.statistics, names_of(statistics_files()), "--statistics", variant_of(options));
+  }
   StageClock clock(progress_on_stderr(options.verbosity()));
   auto history = loads_of(scene, clock);
   std::vector<BearingScene> bearings;  // those at a port of a body need `run`
@@ -124,7 +127,7 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
     out << with_effects_of_bodies(summary_json(content), scene);
   } else {
     print_report(out, content);
-    print_effects_of_bodies(out, scene);
+    print_effects_of_bodies(out, scene, options.verbosity() == Verbosity::verbose);
     print_files(out, options.statistics, charts);
   }
 }
@@ -141,6 +144,7 @@ void add_loads_command(CLI::App& app, ChosenCommand& chosen) {
       "write extremes, harmonics, polar plots and load spectra to this directory, as tables and charts");
   command->add_option("--calculix", options->calculix,
                       "write PREFIX_amplitudes.inp and PREFIX_loads.inp for CalculiX");
+  add_force_option(*command, *options);
   command->add_flag("--json", options->json, "print the summary as JSON instead of the table");
   command->callback(to_choose(chosen, options, loads));
 }

@@ -88,7 +88,7 @@ void add_forces(const Scene& scene, const BodyScene& body, BodyEffect& effect) {
 
 std::string where_to_look(const Scene& scene, const std::string& body) {
   return "its size comes from the mesh of the " + body + ": `millstress check " +
-         scene.file.filename().string() + "` shows it";
+         scene.file.filename().string() + " -v` shows it";
 }
 
 }  // namespace
@@ -105,12 +105,25 @@ std::vector<BodyEffect> effects_of_bodies(const Scene& scene) {
   return effects;
 }
 
-void print_effects_of_bodies(std::ostream& out, const Scene& scene) {
-  for (const auto& effect : effects_of_bodies(scene)) {
-    out << fmt::format("\n  {} on the {}: {} ({})\n", effect.effect.name, effect.body,
-                       effect.effect.description, effect.effect.source);
-    if (effect.forces.empty()) out << "    " << where_to_look(scene, effect.body) << '\n';
-    for (const auto& force : effect.forces) out << "    " << force << '\n';
+void print_effects_of_bodies(std::ostream& out, const Scene& scene, bool all) {
+  const auto effects = effects_of_bodies(scene);
+  if (!all && !effects.empty()) out << "\n  effects of the bodies themselves\n";
+  for (const auto& effect : effects) {
+    if (all)
+      out << fmt::format("\n  {} on the {}: {} ({})\n", effect.effect.name, effect.body,
+                         effect.effect.description, effect.effect.source);
+    else
+      out << fmt::format("    {} on the {}", effect.effect.name, effect.body);
+    const char* begin = all ? "    " : ": ";
+    const char* end = all ? "\n" : "";
+    if (effect.forces.empty()) out << begin << where_to_look(scene, effect.body) << end;
+    for (const auto& force : effect.forces) out << begin << force << end;
+    if (!all) {
+      for (const auto& share : effect.shares)
+        out << fmt::format("; {} of {}", percent(share.largest), share.load);
+      out << '\n';
+      continue;
+    }
     if (effect.shares.empty()) continue;
     out << fmt::format("    {:<28}{:>16}{:>16}{:>16}\n", "load", "largest share", "RMS share",
                        "change if off");
@@ -137,9 +150,10 @@ std::string with_effects_of_bodies(const std::string& json, const Scene& scene) 
   return whole.dump(2) + "\n";
 }
 
-void print_effect_sizes(std::ostream& out, const BodyLoads& loads, const std::vector<RegionMass>& regions) {
+std::vector<EffectSize> effect_sizes(const BodyLoads& loads, const std::vector<RegionMass>& regions) {
   const auto n = loads.history.values.cols();
-  out << fmt::format("  {:<30}{:>16}{:>18}\n", "effects on it, at most", "sum of forces", "sum of moments");
+  std::vector<EffectSize> sizes;
+  if (n == 0) return sizes;
   for (std::size_t e = 0; e < loads.history.effects.size(); ++e) {
     Eigen::ArrayXd force_N = Eigen::ArrayXd::Zero(n), moment_Nm = force_N;
     for (std::size_t k = 0; k < loads.unit_loads.size(); ++k) {
@@ -149,10 +163,16 @@ void print_effect_sizes(std::ostream& out, const BodyLoads& loads, const std::ve
       force_N += size.force * values;
       moment_Nm += size.moment * values;
     }
-    if (n == 0 || (force_N.maxCoeff() == 0 && moment_Nm.maxCoeff() == 0)) continue;
-    out << fmt::format("    {:<28}{:>14.4g} N{:>14.4g} N m\n", loads.history.effects[e], force_N.maxCoeff(),
-                       moment_Nm.maxCoeff());
+    if (force_N.maxCoeff() > 0 || moment_Nm.maxCoeff() > 0)
+      sizes.push_back({loads.history.effects[e], force_N.maxCoeff(), moment_Nm.maxCoeff()});
   }
+  return sizes;
+}
+
+void print_effect_sizes(std::ostream& out, const std::vector<EffectSize>& sizes) {
+  out << fmt::format("  {:<30}{:>16}{:>18}\n", "effects on it, at most", "sum of forces", "sum of moments");
+  for (const auto& size : sizes)
+    out << fmt::format("    {:<28}{:>14.4g} N{:>14.4g} N m\n", size.effect, size.force_N, size.moment_Nm);
 }
 
 }  // namespace pipelines

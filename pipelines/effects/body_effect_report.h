@@ -28,14 +28,22 @@ struct BodyEffect {
 /// of root means add up.
 std::vector<BodyEffect> effects_of_bodies(const Scene& scene);
 
-/// A line each, and where the sizes are to be had that the scene alone cannot tell; nothing if there are
-/// none.
-void print_effects_of_bodies(std::ostream& out, const Scene& scene);
+/// Forces and shares of each, or where the sizes are to be had that the scene alone cannot tell; nothing if
+/// there are none.
+/// @param all  with descriptions and sources, as a table each; else a line each
+void print_effects_of_bodies(std::ostream& out, const Scene& scene, bool all);
 
 /// JSON of a command with the entry "body_effects" beside its own; as it is if there are none.
 std::string with_effects_of_bodies(const std::string& json, const Scene& scene);
 
-/// What each effect brings to a meshed body: its largest sum of forces and of moments, pressure left out.
-void print_effect_sizes(std::ostream& out, const BodyLoads& loads, const std::vector<RegionMass>& regions);
+/// Largest sums over the cycle of the sizes of all forces, and of all moments, pressure left out.
+struct EffectSize {
+  std::string effect;
+  double force_N = 0, moment_Nm = 0;
+};
+
+/// What each effect brings to a meshed body; those that bring nothing are left out.
+std::vector<EffectSize> effect_sizes(const BodyLoads& loads, const std::vector<RegionMass>& regions);
+void print_effect_sizes(std::ostream& out, const std::vector<EffectSize>& sizes);
 
 }  // namespace pipelines

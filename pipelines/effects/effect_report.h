@@ -79,7 +79,13 @@ LoadChange largest_change(const kinetics::LoadHistory& all, const kinetics::Load
 /// "1.23 %"; "-" where the share is not finite.
 std::string percent(double share);
 
-void print_effects(std::ostream& out, const Scene& scene, const EffectReport& report);
+/// Shares of loads below that are counted, not listed.
+inline constexpr double negligible_load_share = 0.01;
+
+/// Groups of effects (effect_groups.h), then each effect, by what each is worth to the load that feels it
+/// most, and what can be left out.
+/// @param all  every share of every load, seconds, descriptions and sources
+void print_effects(std::ostream& out, const Scene& scene, const EffectReport& report, bool all);
 std::string effects_json(const Scene& scene, const EffectReport& report);
 
 }  // namespace pipelines

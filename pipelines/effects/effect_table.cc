@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -41,14 +42,13 @@ Json json_of_shares(const std::vector<LoadShare>& shares) {
   return json;
 }
 
-}  // namespace
-
-std::string percent(double share) {
-  return std::isfinite(share) ? fmt::format("{:.3g} %", 100 * share) : "-";
-}
-
-void print_effects(std::ostream& out, const Scene& scene, const EffectReport& report) {
-  out << fmt::format("\n{}: the effects and what they are worth\n", scene.title);
+/// Everything: a table of each group, then of each effect.
+void print_all(std::ostream& out, const EffectReport& report) {
+  for (const auto& group : report.groups) {
+    out << fmt::format("\n  {}, in sum: {}\n", group.name, listed(group.effects));
+    print_shares(out, group.shares);
+    if (!group.indispensable.empty()) out << "    cannot be left out: " << group.indispensable << '\n';
+  }
   for (const auto& worth : report.effects) {
     out << fmt::format("\n  {}: {} ({})\n", worth.effect.name, worth.effect.description, worth.effect.source);
     print_shares(out, worth.shares);
@@ -59,19 +59,93 @@ void print_effects(std::ostream& out, const Scene& scene, const EffectReport& re
     else
       out << "    costs less time than repeated runs differ by\n";
   }
-  for (const auto& group : report.groups) {
-    out << fmt::format("\n  {}, in sum: {}\n", group.name, listed(group.effects));
-    print_shares(out, group.shares);
-    if (!group.indispensable.empty()) out << "    cannot be left out: " << group.indispensable << '\n';
-  }
   out << "\n  all effects: " << nanoseconds(report.per_instant) << '\n';
+}
+
+/// As people read it: no exponents, and nothing of round-off.
+std::string short_percent(double share) {
+  constexpr double least = 1e-4;
+  if (!std::isfinite(share)) return "-";
+  if (share < least) return "< 0.01 %";
+  return share >= 1 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.2g} %", 100 * share);
+}
+
+/// One line of the short table.
+struct EffectRow {
+  std::string name;
+  const std::vector<LoadShare>* shares = nullptr;
+  bool is_indispensable = false;
+
+  /// The load that it is the largest part of; where it is none, what leaving it out changes most.
+  const LoadShare* most() const {
+    const LoadShare *part = nullptr, *change = nullptr;
+    for (const auto& share : *shares) {
+      if (part == nullptr || share.largest > part->largest) part = &share;
+      if (change == nullptr || share.if_off > change->if_off) change = &share;
+    }
+    return part != nullptr && part->largest >= negligible_load_share ? part : change;
+  }
+  double size(const LoadShare& share) const {
+    return std::isfinite(share.if_off) ? std::max(share.largest, share.if_off) : share.largest;
+  }
+};
+
+void print_rows(std::ostream& out, const std::string& title, std::vector<EffectRow> rows) {
+  const auto size_of = [](const EffectRow& row) {
+    const auto* most = row.most();
+    return most == nullptr ? 0.0 : row.size(*most);
+  };
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](const auto& a, const auto& b) { return size_of(a) > size_of(b); });
+  out << fmt::format("\n  {:<28}{:>15}{:>15}  {:<26}{}\n", title, "largest part", "change if off",
+                     "of the load", "other loads");
+  for (const auto& row : rows) {
+    const auto* most = row.most();
+    if (most == nullptr) {
+      out << fmt::format("    {:<26}{:>15}{:>15}\n", row.name, "-", "-");
+      continue;
+    }
+    std::size_t n_felt = 0, n_small = 0;
+    for (const auto& share : *row.shares)
+      if (&share != most) ++(row.size(share) >= negligible_load_share ? n_felt : n_small);
+    std::string others = n_felt > 0 ? fmt::format("{} felt", n_felt) : "";
+    if (n_small > 0)
+      others +=
+          fmt::format("{}{} below {}", others.empty() ? "" : ", ", n_small, percent(negligible_load_share));
+    out << fmt::format("    {:<26}{:>15}{:>15}  {:<26}{}\n", row.name, short_percent(most->largest),
+                       row.is_indispensable ? "needed" : short_percent(most->if_off), most->load, others);
+  }
+}
+
+void print_short(std::ostream& out, const EffectReport& report) {
+  std::vector<EffectRow> groups, effects;
+  for (const auto& group : report.groups)
+    groups.push_back({group.name, &group.shares, !group.indispensable.empty()});
+  for (const auto& worth : report.effects)
+    effects.push_back({worth.effect.name, &worth.shares, !worth.indispensable.empty()});
+  if (!groups.empty()) print_rows(out, "parts of the machine", std::move(groups));
+  print_rows(out, "effects", std::move(effects));
+  out << "    largest part: its largest size over that of the load; needed: others need it, -v says which; "
+         "all "
+         "loads, RMS and seconds: -v, --json\n";
+}
+
+}  // namespace
+
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.3g} %", 100 * share) : "-";
+}
+
+void print_effects(std::ostream& out, const Scene& scene, const EffectReport& report, bool all) {
+  out << fmt::format("\n{}: the effects and what they are worth\n", scene.title);
+  all ? print_all(out, report) : print_short(out, report);
   if (report.dispensable.empty())
-    out << fmt::format("  below a threshold of {} none can be left out\n", percent(report.threshold));
+    out << fmt::format("\n  below a threshold of {} none can be left out\n", percent(report.threshold));
   else
     out << fmt::format(
-        "  below a threshold of {} these can be left out together: {}\n    the load that changes most is {}, "
-        "by "
-        "{} of its largest magnitude\n",
+        "\n  below a threshold of {} these can be left out together: {}\n    the load that changes most is "
+        "{}, "
+        "by {} of its largest magnitude\n",
         percent(report.threshold), listed(report.dispensable), report.worst_load, percent(report.if_all_off));
 }
 

@@ -87,14 +87,14 @@ TEST(EffectsOfBodies, AreListedByEffectsAndLoads) {
     const auto text = millstress(directory.path, command + " scene.toml");
     for (const char* words : {"belt_pull on the shaft", "240 N across, at rest, on pulley_seat",
                               "-118 N along the shaft, on disc_seat", "shaft_inertia on the shaft",
-                              "`millstress check scene.toml` shows it"})
+                              "`millstress check scene.toml -v` shows it"})
       EXPECT_NE(text.out.find(words), std::string::npos) << command << ": " << words;
     const auto json = nlohmann::json::parse(millstress(directory.path, command + " scene.toml --json").out);
     EXPECT_EQ(json["body_effects"].size(), 4u) << command;
     EXPECT_EQ(json["body_effects"]["disc_weight"]["loads"]["shaft/disc_seat.fz"]["largest_share"], 1)
         << command;
   }
-  const auto check = millstress(directory.path, "check scene.toml");
+  const auto check = millstress(directory.path, "check -v scene.toml");
   EXPECT_NE(check.out.find("effects on it, at most"), std::string::npos);
   EXPECT_NE(check.out.find("on  belt_pull"), std::string::npos);
 }
