@@ -163,17 +163,54 @@ std::string forecast_beside(const BodyScene& body, const MeshedBody& meshed,
 }
 
 void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& meshed,
-                    const ForecastLoads& loads) {
-  const auto calibration = read_calibration(calibration_file());
+                    const std::vector<ModelForecast>& models, const CostCalibration& calibration) {
   if (!meshed.model)
     out << "  by formula, since nothing was meshed: unknowns within a third, tetrahedra and seconds a factor "
            "of three\n";
-  print_models(out, forecast_ladder(body, meshed, loads, calibration));
+  print_models(out, models);
   out << forecast_beside(body, meshed, calibration);
   if (!calibration.fault.empty()) out << "  (" << calibration.fault << ")\n";
   out << (calibration.n_runs > 0
               ? fmt::format("  (seconds learnt from {} runs on this machine)\n", calibration.n_runs)
               : "  (seconds of the machine that the prediction was made on: no run yet on this one)\n");
+}
+
+RunForecast forecast_run(const Scene& scene, const std::vector<std::vector<ModelForecast>>& ladders) {
+  // Measured on the shipped scenes: solves of all steps, their meshes and estimates over the first mesh's
+  // solve; the same of harmonics; a picture; what libraries and results take.
+  constexpr double steps_of_search = 6, steps_of_harmonics = 3, picture_s = 2.5, other_s = 1;
+  constexpr double growth_of_search = 2, other_gigabytes = 0.35;
+  const auto accuracy = with_default(scene.accuracy);
+  RunForecast run{other_s, other_gigabytes};
+  double solves_s = 0, pictures_s = 0, largest_gigabytes = 0;
+  for (const auto& ladder : ladders) {
+    const auto find = [&](const std::string& model) -> const ModelForecast* {
+      for (const auto& one : ladder)
+        if (one.model == model && one.left_out.empty()) return &one;
+      return nullptr;
+    };
+    const bool is_cheap = scene.method == Method::automatic || scene.method == Method::axisymmetric;
+    const ModelForecast* model = nullptr;
+    double steps = 1, growth = 1;
+    if (scene.method == Method::beam)
+      model = find("beam");
+    else if (is_cheap && !accuracy.once && find("axisymmetric") != nullptr)
+      model = find("axisymmetric"), steps = steps_of_harmonics;
+    else if (accuracy.once)
+      model = find("the scene's mesh");
+    else
+      model = find("first of a search"), steps = steps_of_search, growth = growth_of_search;
+    if (model == nullptr) model = find("the scene's mesh");
+    if (model == nullptr) continue;
+    solves_s += steps * (model->solve_s + model->superpose_s);
+    largest_gigabytes = std::max(largest_gigabytes, growth * model->gigabytes);
+    if (scene.pictures) pictures_s += picture_s;
+  }
+  run.ends_by_limit = accuracy.time_limit_s > 0 && solves_s > accuracy.time_limit_s;
+  if (run.ends_by_limit) solves_s = accuracy.time_limit_s;
+  run.seconds += solves_s + pictures_s;
+  run.gigabytes += largest_gigabytes;
+  return run;
 }
 
 void learn_from(const SceneRun& run) {

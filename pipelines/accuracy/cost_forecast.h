@@ -44,9 +44,19 @@ std::string forecast_beside(const BodyScene& body, const MeshedBody& meshed,
 /// A table with one line for each model.
 void print_models(std::ostream& out, const std::vector<ModelForecast>& models);
 
-/// The forecast of the calibration on this machine, as lines of `check`.
+/// The forecast of the calibration on this machine, as lines of `check -v`.
 void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& meshed,
-                    const ForecastLoads& loads);
+                    const std::vector<ModelForecast>& models, const CostCalibration& calibration);
+
+/// A whole run, as the scene asks for it: meshes, searches and pictures too.
+struct RunForecast {
+  double seconds = 0, gigabytes = 0;
+  bool ends_by_limit = false;  ///< the time limit, of the scene or the default, is shorter than the searches
+};
+
+/// From the ladder of each body, in the order of the scene. A search is taken as a few times its first mesh,
+/// as the shipped scenes' searches are (README.md): within a factor of three.
+RunForecast forecast_run(const Scene& scene, const std::vector<std::vector<ModelForecast>>& ladders);
 
 /// What a run tells about this machine's speed goes into the calibration.
 void learn_from(const SceneRun& run);

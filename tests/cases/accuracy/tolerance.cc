@@ -145,7 +145,7 @@ TEST(Tolerance, CheckForecastsTheModels) {
     double unknowns = 0, solve_s = 0, superpose_s = 0, gigabytes = 0;
   };
   const auto forecast = [&](const std::string& model, const std::string& how = "--thorough") {
-    const auto check = millstress(directory.path, "check small.toml " + how);
+    const auto check = millstress(directory.path, "check -v small.toml " + how);
     EXPECT_EQ(check.exit_code, 0) << check.err;
     const auto at = check.out.find(model);
     EXPECT_NE(at, std::string::npos) << model << check.out;

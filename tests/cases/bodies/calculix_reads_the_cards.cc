@@ -115,7 +115,7 @@ TEST(CalculixModel, HasAStepForEveryChannel) {
                    {{"sectors = 16", "sectors = 8"}, {"\"12 mm\"", "\"24 mm\""}}));
   const auto run = millstress(directory.path, "calculix shaft.toml -o out");
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto check = millstress(directory.path, "check shaft.toml");
+  const auto check = millstress(directory.path, "check -v shaft.toml");
   const std::string model = results_test::bytes(directory / "out/shaft.inp");
   EXPECT_NE(model.find("TYPE=C3D20,"), std::string::npos);
   int n_steps = 0;
