@@ -74,10 +74,9 @@ TEST(Plausibility, ALooseToleranceIsDoubted) {
 // 1.3, 1.5e6 / 206e9 = 7.3e-6.
 TEST(Plausibility, MaterialsWithAWrongPowerOfTenAreDoubted) {
   const auto with = [](const std::string& key, const std::string& value) {
-    const auto scene = results_test::bytes(shipped_scenes() / "load_table.toml");
-    const auto at = scene.find(key + " = ");
-    EXPECT_NE(at, std::string::npos) << key;
-    return doubts_of("load_table.toml", scene.substr(at, scene.find('\n', at) - at), key + " = " + value);
+    const std::string modulus = "youngs_modulus = \"206 GPa\"";
+    return doubts_of("load_table.toml", modulus,
+                     (key == "youngs_modulus" ? "" : modulus + "\n") + key + " = " + value);
   };
   const auto soft = with("youngs_modulus", "206e6");
   EXPECT_TRUE(one_says(soft, "youngs_modulus = 0.206 GPa and density = 7850 kg/m3 at 162 m/s"));
