@@ -14,6 +14,7 @@
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/files/hdf5_file.h"
+#include "pipelines/superposition/stress_cycle.h"
 
 namespace pipelines {
 namespace {
@@ -51,6 +52,17 @@ std::vector<std::string> file_names(const StressHistories& histories) {
 std::vector<double> scaled(const Eigen::Ref<const Eigen::ArrayXd>& values, double factor) {
   const Eigen::ArrayXd result = factor * values;
   return {result.begin(), result.end()};
+}
+
+/// What fatigue counts first: the two instants that differ most, whatever sign von Mises stress would have.
+StressCycle cycle_of(const StressHistory& history) {
+  constexpr double slack = 1e-9;
+  return largest_cycle(history.stress_Pa, slack);
+}
+
+/// Of an instant in the CSV file, whose first line has the titles.
+Index line_of(Index instant) {
+  return instant + 2;
 }
 
 void write_point_csv(const std::filesystem::path& file, const StressHistories& histories,
@@ -119,6 +131,7 @@ void print_stress_histories(std::ostream& out, const StressHistories& histories,
     for (std::size_t p = 0; p < names.size(); ++p) {
       const auto& history = histories.points[p];
       const auto with_sign = history.signed_von_mises_Pa();
+      const auto cycle = cycle_of(history);
       all["points"].push_back({{"body", history.point.body},
                                {"point", history.point.name},
                                {"feature", history.point.feature},
@@ -127,6 +140,9 @@ void print_stress_histories(std::ostream& out, const StressHistories& histories,
                                {"left_out", history.point.is_left_out},
                                {"file", names[p] + ".csv"},
                                {"von_mises_max_Pa", history.von_mises_Pa().maxCoeff()},
+                               {"amplitude_Pa", cycle.amplitude_Pa},
+                               {"mean_Pa", cycle.signed_mean_Pa},
+                               {"amplitude_between_lines", {line_of(cycle.from), line_of(cycle.to)}},
                                {"signed_von_mises_min_Pa", with_sign.minCoeff()},
                                {"signed_von_mises_max_Pa", with_sign.maxCoeff()}});
     }
@@ -139,15 +155,19 @@ void print_stress_histories(std::ostream& out, const StressHistories& histories,
     for (std::size_t c = 0; c < 3; ++c) widths[c] = std::max(widths[c], sizes[c]);
   }
   const auto [body, name, feature] = widths;
-  out << fmt::format("\n  {:<{}}  {:<{}}  {:<{}}  {:>13}  {:>20}\n", "body", body, "point", name, "on",
-                     feature, "von Mises MPa", "with its sign MPa");
+  out << fmt::format("\n  {:<{}}  {:<{}}  {:<{}}  {:>13}  {:>13}  {:>8}  {:>13}\n", "body", body, "point",
+                     name, "on", feature, "von Mises MPa", "amplitude MPa", "mean MPa", "between lines");
   for (const auto& history : histories.points) {
-    const auto with_sign = history.signed_von_mises_Pa();
-    out << fmt::format(
-        "  {:<{}}  {:<{}}  {:<{}}  {:>13.2f}  {:>20}\n", history.point.body, body, history.point.name, name,
-        history.point.feature, feature, history.von_mises_Pa().maxCoeff() / 1e6,
-        fmt::format("{:.2f} to {:.2f}", with_sign.minCoeff() / 1e6, with_sign.maxCoeff() / 1e6));
+    const auto cycle = cycle_of(history);
+    out << fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:>13.2f}  {:>13.2f}  {:>8.2f}  {:>13}\n",
+                       history.point.body, body, history.point.name, name, history.point.feature, feature,
+                       history.von_mises_Pa().maxCoeff() / 1e6, cycle.amplitude_Pa / 1e6,
+                       cycle.signed_mean_Pa / 1e6,
+                       fmt::format("{} and {}", line_of(cycle.from), line_of(cycle.to)));
   }
+  out << "  amplitude: half the von Mises stress of the difference of the two instants that differ most, on "
+         "these "
+         "lines of the CSV file; mean: signed von Mises stress of their middle\n";
   for (const auto& [point, stress_Pa] : histories.points)
     if (point.distance_m > 0)
       out << fmt::format("  {}, {}: at the nearest node, ({:.6g}, {:.6g}, {:.6g}) mm, {:.3g} mm from it\n",

@@ -33,6 +33,22 @@ std::string refusal(const fs::path& directory, const std::string& arguments) {
   return run.err;
 }
 
+/// Half the von Mises stress of the difference of the two rows that differ most.
+double amplitude_MPa(const std::map<std::string, std::vector<double>>& table) {
+  const auto n = table.at("xx").size();
+  double most = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto d = [&](const char* name) { return table.at(name)[i] - table.at(name)[j]; };
+      const double squared =
+          (std::pow(d("xx") - d("yy"), 2) + std::pow(d("yy") - d("zz"), 2) + std::pow(d("zz") - d("xx"), 2)) /
+              2 +
+          3 * (std::pow(d("xy"), 2) + std::pow(d("yz"), 2) + std::pow(d("xz"), 2));
+      most = std::max(most, std::sqrt(squared) / 2);
+    }
+  return most;
+}
+
 }  // namespace
 
 // M = F/2 from the bearing's middle on, sigma = 32 M / (pi d^3) on the surface; reversed within half a turn.
@@ -50,6 +66,7 @@ TEST(Histories, AForceFixedInSpaceIsRotatingBending) {
   const double amplitude = *std::max_element(zz.begin(), zz.end());
   const double bending_MPa = 50 * (z_m - 0.002) * x_m / (M_PI * std::pow(0.01, 4) / 64) / 1e6;
   EXPECT_NEAR(amplitude, bending_MPa, 0.02 * bending_MPa);  // eight cells around
+  EXPECT_NEAR(point["amplitude_Pa"].get<double>() / 1e6, amplitude_MPa(table), 1e-9 * amplitude);
   for (std::size_t i = 0; i < 24; ++i) {
     EXPECT_NEAR(table.at("drive_angle")[i], 15. * double(i), 1e-9);
     EXPECT_NEAR(table.at("time")[i], 0.1 * double(i) / 24, 1e-12);
@@ -278,4 +295,38 @@ TEST(Histories, WeldToesHaveTheExtrapolatedStress) {
       }
   EXPECT_EQ(n_toes, spots.size());
   EXPECT_GE(n_toes, 2u);
+}
+
+// Bending b cos(phi) with torsion of the same von Mises stress, t cos(2 phi): half a turn later bending has
+// changed its sign and torsion has not. Signed von Mises stress then goes from -sqrt(b^2 + t^2) to sqrt(b^2 +
+// t^2), and half of that range is 1.26 times the amplitude, sqrt(b^2 + 4 t^2) / 2. Red with half the range of
+// signed_von_mises.
+TEST(Histories, TheAmplitudeNeedsNoSign) {
+  const results_test::Directory directory;
+  write(directory / "scene.toml",
+        solid_shaft({{"pull", "middle.fy", "100 N", 1}, {"twist", "middle.torque", "11 N m", 2}}));
+  const auto json = history(directory.path, "-o h");
+  bool flips = false;
+  for (const auto& point : json["points"]) {
+    const auto table = csv(directory / ("h/" + point["file"].get<std::string>()));
+    const double expected = amplitude_MPa(table), found = point["amplitude_Pa"].get<double>() / 1e6;
+    EXPECT_NEAR(found, expected, 1e-8 * expected) << point["point"];
+    const double signed_MPa =
+        (point["signed_von_mises_max_Pa"].get<double>() - point["signed_von_mises_min_Pa"].get<double>()) /
+        2e6;
+    flips = flips || signed_MPa > 1.05 * found;
+    const std::size_t from = point["amplitude_between_lines"][0], to = point["amplitude_between_lines"][1];
+    ASSERT_LT(from, to);
+    ASSERT_GE(from, 2u);
+    double squared = 0;
+    for (const auto& [a, b] : {std::pair{"xx", "yy"}, {"yy", "zz"}, {"zz", "xx"}})
+      squared += std::pow((table.at(a)[to - 2] - table.at(b)[to - 2]) -
+                              (table.at(a)[from - 2] - table.at(b)[from - 2]),
+                          2) /
+                 2;
+    for (const char* shear : {"xy", "yz", "xz"})
+      squared += 3 * std::pow(table.at(shear)[to - 2] - table.at(shear)[from - 2], 2);
+    EXPECT_NEAR(std::sqrt(squared) / 2, expected, 1e-8 * expected) << "on the lines that are told";
+  }
+  EXPECT_TRUE(flips);
 }
