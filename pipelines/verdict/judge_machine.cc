@@ -69,11 +69,11 @@ std::optional<Finding> judge_static_load(const RunReport& report, std::size_t i)
   return finding;
 }
 
-/// "shaft/bearing_1": the first seat of a body that is named after a bearing; empty: none.
+/// "bearing_1": the first seat of a body that is named after a bearing; empty: none.
 std::string bearing_seat(const RunReport& report) {
   for (const auto& analysis : report.bodies)
     for (const auto& port : analysis.mesh.ports)
-      if (port.name.find("bearing") != std::string::npos) return analysis.scene.name + "/" + port.name;
+      if (port.name.find("bearing") != std::string::npos) return port.name;
   return "";
 }
 

@@ -47,8 +47,8 @@ TEST(NaturalFrequencies, OfABarBetweenBearingsAreThoseOfABeam) {
     EXPECT_NEAR(f["value"].get<double>(), pinned_bar_Hz(1), 0.01 * pinned_bar_Hz(1));
   EXPECT_EQ(shaft["natural_frequencies"][0]["unit"], "Hz");
   EXPECT_EQ(shaft["dynamic_amplification"]["held"], "pinned at bearing_1, bearing_2");
-  EXPECT_NE(text.find("natural frequencies [Hz]"), std::string::npos) << text;
-  EXPECT_NE(text.find("dynamic amplification"), std::string::npos) << text;
+  EXPECT_NE(text.find("natural frequencies  "), std::string::npos) << text;
+  EXPECT_NE(text.find("resonance puts at most a factor"), std::string::npos) << text;
 }
 
 // Forty diameters long, rounding leaves 1.65e-6 of the inertia forces unbalanced, which moves no frequency.

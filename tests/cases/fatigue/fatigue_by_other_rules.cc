@@ -39,7 +39,7 @@ TEST(Fatigue, OfFilletsHasASecondOpinionByDin743) {
   const results_test::Directory directory;
   const auto run =
       millstress(directory.path, "run " + shipped("shaft.toml").string() +
-                                     " --method axisymmetric --set results.pictures=false -o out");
+                                     " -v --method axisymmetric --set results.pictures=false -o out");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto fatigue = summary(directory / "out")["bodies"]["shaft"]["fatigue"];
   const auto& din = fatigue["din_743"];
@@ -114,7 +114,7 @@ TEST(Fatigue, FindleyDoesNotDependOnTheInstants) {
     const auto run = millstress(directory.path, "run " + shipped("shaft.toml").string() +
                                                     " --method axisymmetric --set results.pictures=false "
                                                     "--set sampling.instants_per_turn=" +
-                                                    instants + " -o out");
+                                                    instants + " --force -o out");
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return summary(directory / "out")["bodies"]["shaft"]["fatigue"]["places"][0]["safety_by"];
   };

@@ -318,7 +318,7 @@ TEST(OperatingBlocks, TheShippedSceneOfAMillRuns) {
   const auto outcome =
       millstress(directory.path,
                  "run '" + shipped("vibratory_mill_duty.toml").string() +
-                     "' -o out --time-limit '3 s' --set machine.charge.turn_ratio=-1/2 --set "
+                     "' -o out -v --time-limit '3 s' --set machine.charge.turn_ratio=-1/2 --set "
                      "sampling.turns=2 --set sampling.instants_per_turn=24 --set results.pictures=false");
   ASSERT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 4) << outcome.err;
   const auto duty = summary(directory / "out")["duty"];

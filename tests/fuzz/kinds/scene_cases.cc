@@ -55,6 +55,7 @@ std::string fault_of_scene(const std::filesystem::path& file) {
   const pipelines::RunReport report{scene, loads, {}, {}, {}, pipelines::bearing_lives(bearings, loads, {})};
   std::ostringstream told;
   pipelines::print_report(told, report);
+  pipelines::print_full_report(told, report);
   if (pipelines::kind_of(scene.machine).is_torsional())
     pipelines::require_finite(pipelines::report_torsion(scene, scene.machine));
   return fault_of_summary(pipelines::summary_json(report));

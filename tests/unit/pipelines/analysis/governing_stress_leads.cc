@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
@@ -160,6 +161,7 @@ TEST(ErrorText, SetsApartWhatNoMeshLowers) {
   errors.set_numerical({"discretisation", "", 1.1e6});
   errors.set_numerical({"pressure_harmonics", "", 0.2e6});
   EXPECT_EQ(value_with_errors(105.2e6, errors), "105.2 MPa +- 1.3 (numerical)");
+  EXPECT_EQ(value_with_shares(105.2e6, errors), "105.2 +- 1.3 MPa");
   errors.set_model({"load_patches", "", 2.1e6});
   errors.set_model({"quasi_static", "", 1e3});
   EXPECT_EQ(value_with_errors(105.2e6, errors),
@@ -181,6 +183,20 @@ TEST(ErrorText, ShowsAsManyDigitsAsAreKnown) {
   EXPECT_EQ(text(0, 0), "0.0 MPa +- 0.0 (numerical)");
   EXPECT_EQ(text(1e-6, 1e-9), "1e-12 MPa +- 1e-15 (numerical)");
   EXPECT_EQ(text(2e13, 1e6), fixed(2e7, 1) + " MPa +- 1.0 (numerical)");
+}
+
+// Four digits at most; what is shown is never narrower than what is stated. Turns red: errors that are
+// rounded to the nearest, or vanish beside a value of four digits.
+TEST(ErrorText, ShowsFourDigitsAndNeverLessError) {
+  EXPECT_EQ(with_error(66.0725e6, 1.6e6), "66.07 +- 1.61")
+      << "1.60 and what rounding of the value leaves out";
+  EXPECT_EQ(with_error(104.94e6, 3.21e6), "104.9 +- 3.3");
+  EXPECT_EQ(with_error(41.56136e6, 57.9), "41.56 +- 0.01");
+  EXPECT_EQ(with_error(1234.4e6, 3.2e6), "1234 +- 4");
+  EXPECT_EQ(with_error(41.56e6, 0), "41.56 +- 0.00");
+  EXPECT_EQ(with_error(41.56e6, std::numeric_limits<double>::infinity()), "41.56 +- ?");
+  EXPECT_EQ(with_error(0, 0), "0.000 +- 0.000");
+  EXPECT_EQ(with_error(0.0123456e6, 0.001e6), "0.01235 +- 0.00101");
 }
 
 TEST(ErrorText, TellsWhatIsNotKnownWellAndWhatHelps) {
