@@ -14,6 +14,7 @@
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/report_parts/fatigue_report.h"
+#include "pipelines/report_parts/moment.h"
 #include "pipelines/report_parts/shaft_torsion_report.h"
 #include "pipelines/result_files/envelope_files.h"
 
