@@ -75,7 +75,7 @@ std::string with_error(double value, double error, double unit) {
   if (!std::isfinite(error)) return fixed(shown, decimals) + " +- ?";
   const double last = std::pow(10, -decimals), rounding = std::abs(shown - std::round(shown / last) * last);
   constexpr double tiny = 1e-9;  // of the last digit: what rounding adds to a sum
-  const double up = std::ceil((error / unit + rounding) / last - tiny) * last;
+  const double up = std::max(0.0, std::ceil((error / unit + rounding) / last - tiny)) * last;
   return fixed(shown, decimals) + " +- " + fixed(up, decimals);
 }
 

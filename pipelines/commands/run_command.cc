@@ -89,9 +89,11 @@ void note_lives_of_toes(const BodyAnalysis& analysis, const DutyResult* duty, Pi
 
 /// The envelope as a picture that marks the governing stress; a machine that cannot draw gets a line instead.
 /// @param envelope  the .vtu
+/// @param verdict   on the body
 /// @return the line; empty if it is drawn
 std::string draw(const std::filesystem::path& envelope, const std::filesystem::path& directory,
-                 const std::string& title, const BodyAnalysis& analysis, const DutyResult* duty) {
+                 const std::string& title, const std::string& verdict, const BodyAnalysis& analysis,
+                 const DutyResult* duty) {
   const auto stress = governing_stress(analysis);
   PictureOptions options;
   options.scale = 1e-6;
@@ -100,12 +102,12 @@ std::string draw(const std::filesystem::path& envelope, const std::filesystem::p
   if (const double border_Pa = largest_at_border_Pa(analysis); border_Pa > 0)
     options.excluded_is =
         fmt::format("left out beside sharp edges,\n{} MPa at its border", fixed(border_Pa / 1e6, 1));
-  options.mark = PictureMark{stress.position_m, fmt::format("{} {} MPa\n{}", stress.name(),
+  options.mark = PictureMark{stress.position_m, fmt::format("{}\n{} {} MPa\n{}", verdict, stress.name(),
                                                             fixed(stress.value_Pa / 1e6, 1), stress.place)};
   note_lives_of_toes(analysis, duty, options);
   return write_picture(envelope, pictured_field(analysis),
-                       title + ": largest von Mises stress over the cycle", "MPa", directory / "envelope.png",
-                       options)
+                       title + ", " + analysis.scene.name + ": largest von Mises stress over the cycle",
+                       "MPa", directory / "envelope.png", options)
              ? ""
              : "no picture: " + why_nothing_draws() + "; envelope.vtu opens in ParaView";
 }
@@ -285,23 +287,24 @@ void warn_of_damage(SceneRun& run) {
     std::cerr << "millstress: " << fault << '\n';
 }
 
-/// "shaft: OK"
+/// "NOT OK: welds at web 2, lower edge"
 std::string verdict_on(const SceneRun& run, const std::string& body, const DutyResult* duty) {
   const auto verdict = judge({run.scene, run.loaded.loads, run.analyses, {}, {}, run.loaded.bearings, duty});
   for (const auto& part : verdict.parts)
-    if (part.name == body) return body + ": " + headline(part);
-  return body;
+    if (part.name == body) return headline(part);
+  return to_string(Judgement::not_judged);
 }
 
 /// The picture of one body, whose envelope is written.
 /// @return as draw
 std::string draw_body(const std::filesystem::path& place, const Scene& scene, const SceneRun& run,
                       const BodyAnalysis& analysis, const DutyResult* duty) {
-  const auto title = scene.title + ", " + verdict_on(run, analysis.scene.name, duty);
-  if (n_ranks_of_a_body() == 1) return draw(place / "envelope.vtu", place, title, analysis, duty);
+  const auto verdict = verdict_on(run, analysis.scene.name, duty);
+  if (n_ranks_of_a_body() == 1)
+    return draw(place / "envelope.vtu", place, scene.title, verdict, analysis, duty);
   const AtomicFile whole(place / "envelope_whole.vtu");  // not kept
   write_whole_envelope(whole.temporary(), run.scene, run.loaded.loads, analysis);
-  return draw(whole.temporary(), place, title, analysis, duty);
+  return draw(whole.temporary(), place, scene.title, verdict, analysis, duty);
 }
 
 /// A picture takes seconds, and results are not there before all are drawn.

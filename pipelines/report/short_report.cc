@@ -13,6 +13,7 @@
 #include "pipelines/report/summary.h"
 #include "pipelines/report/table_parts.h"
 #include "pipelines/report_parts/duty_report.h"
+#include "pipelines/report_parts/fatigue_assumptions.h"
 #include "pipelines/report_parts/fatigue_report.h"
 #include "pipelines/report_parts/shaft_torsion_report.h"
 #include "pipelines/report_parts/zone_text.h"
@@ -20,7 +21,7 @@
 namespace pipelines {
 namespace {
 
-constexpr std::size_t rows_of_zones = 3, rows_of_lives = 3;
+constexpr std::size_t rows_of_zones = 3, rows_of_lives = 2;
 constexpr double same_value = 1e-3;  ///< relative: mirror images are meshed alike, or nearly so
 constexpr double known_by_half = 0.5;
 
@@ -180,6 +181,11 @@ void print_lives(std::ostream& out, const BodyAnalysis& analysis) {
                        with_error(rows[i].range_Pa, rows[i].error_share * rows[i].range_Pa), rows[i].life);
 }
 
+/// Which size the strength is for, before any life that follows from it.
+void print_strength(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  if (analysis.fatigue) out << "    " << strength_text(report.scene, analysis) << '\n';
+}
+
 void print_weld_toes(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
   if (analysis.fatigue || analysis.hot_spots.empty()) return;
   const auto& spot = analysis.hot_spots.front();
@@ -216,6 +222,7 @@ void print_short_body(std::ostream& out, const RunReport& report, const BodyAnal
     out << "    left out, since stress grows without bound at a sharp corner: " << corners << '\n';
   print_other_stresses(out, analysis);
   print_short_zones(out, report, analysis);
+  print_strength(out, report, analysis);
   if (report.duty == nullptr) print_lives(out, analysis);
   print_weld_toes(out, report, analysis);
   print_short_vibration(out, analysis);

@@ -110,12 +110,30 @@ Finding finding_of(const BodyAnalysis& analysis, const Used& used) {
   return finding;
 }
 
+/// A strength of which nobody says that it is the part's at its size may be that of the standard's sample,
+/// and less by FKM's size factor: the margin has to hold with that too.
+void weigh_size(const BodyAnalysis& analysis, Finding& finding) {
+  constexpr double same_strength = 0.995;
+  const auto& sizes = analysis.fatigue->at_size;  // the least factor last
+  if (sizes.empty() || sizes.back().size.tensile_factor > same_strength || !finding.margin) return;
+  finding.figure += "; R_m taken as that of the part at its size";
+  if (finding.least_margin) *finding.least_margin *= sizes.back().size.tensile_factor;
+  if (finding.judgement != Judgement::ok) return;
+  finding.judgement = weigh(*finding.margin, finding.least_margin);
+  if (finding.judgement == Judgement::ok) return;
+  finding.remedy = fmt::format(
+      "say which size R_m is for: size_factor = {:.3g} in [{}.fatigue] where it is the standard's "
+      "sample's, 1 where it is the part's",
+      sizes.back().size.tensile_factor, analysis.scene.name);
+}
+
 /// @param welds  toes alone, or all but these
 std::optional<Finding> worst_of(const RunReport& report, const BodyAnalysis& analysis, bool welds) {
   std::optional<Finding> worst;
   for (const auto& used : all_used(report, analysis)) {
     if (used.is_weld != welds) continue;
     auto finding = finding_of(analysis, used);
+    if (!welds) weigh_size(analysis, finding);
     if (!worst || is_worse(finding, *worst)) worst = std::move(finding);
   }
   return worst;

@@ -67,10 +67,9 @@ Finding finding_of(const RunReport& report, const BodyAnalysis& analysis, const 
   finding.margin = safety / wanted;
   if (std::isfinite(stress.error_share)) finding.least_margin = *finding.margin / (1 + stress.error_share);
   finding.judgement = weigh(*finding.margin, finding.least_margin);
-  finding.figure = fmt::format(
-      "{} +- {} MPa, safety against yield {} ({}) of {:g} wanted", fixed(stress.value_Pa / 1e6, 1),
-      std::isfinite(stress.error_share) ? fixed(stress.error_share * stress.value_Pa / 1e6, 1) : "?",
-      fixed(safety, 2), finding.least_margin ? fixed(*finding.least_margin * wanted, 2) : "-", wanted);
+  finding.figure = fmt::format("safety {} ({}) of {:g} wanted, {} MPa", fixed(safety, 2),
+                               finding.least_margin ? fixed(*finding.least_margin * wanted, 2) : "-", wanted,
+                               with_error(stress.value_Pa, stress.error_share * stress.value_Pa));
   if (finding.judgement == Judgement::not_ok)
     finding.remedy = remedy_of_yield(yield_Pa, finding.least_margin.value_or(*finding.margin));
   else if (finding.judgement == Judgement::not_judged)

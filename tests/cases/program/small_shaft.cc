@@ -37,7 +37,7 @@ std::string small_shaft(const std::vector<SmallLoad>& loads, const std::string& 
 
 nlohmann::json run_small(const fs::path& directory, const std::string& scene, std::string* out) {
   write(directory / "scene.toml", scene);
-  const auto outcome = millstress(directory, "run scene.toml -o out");
+  const auto outcome = millstress(directory, "run scene.toml -o out -v");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   if (out != nullptr) *out = outcome.out;
   return outcome.exit_code == 0 ? summary(directory / "out") : nlohmann::json();

@@ -1,3 +1,8 @@
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <sstream>
+
 #include "tests/cases/program/program.h"
 
 using namespace cases;
@@ -10,6 +15,30 @@ std::vector<std::string> shipped_scenes() {
     if (entry.path().extension() == ".toml") scenes.push_back("'" + entry.path().string() + "'");
   EXPECT_FALSE(scenes.empty());
   return scenes;
+}
+
+/// Word by word; numbers to 2e-3, which another processor's rounding and choice of kernels stay within.
+bool is_same_line(const std::string& a, const std::string& b) {
+  const auto words = [](const std::string& line) {
+    std::istringstream in(line);
+    return std::vector<std::string>{std::istream_iterator<std::string>(in), {}};
+  };
+  const auto x = words(a), y = words(b);
+  if (x.size() != y.size()) return false;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    char *end_x = nullptr, *end_y = nullptr;
+    const double u = std::strtod(x[i].c_str(), &end_x), v = std::strtod(y[i].c_str(), &end_y);
+    const bool are_numbers = end_x != x[i].c_str() && std::string(end_x) == end_y;
+    if (are_numbers ? std::abs(u - v) > 2e-3 * std::abs(v) : x[i] != y[i]) return false;
+  }
+  return true;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
 }
 
 }  // namespace
@@ -37,18 +66,25 @@ TEST(ShippedScenes, AreForecast) {
   }
 }
 
-// The front page's scene is complete and runs as it stands there.
-TEST(FrontPage, ItsSceneRuns) {
+// The front page's scene is complete, and prints what stands there. Turns red: a figure, a word or a line
+// that the program prints otherwise.
+TEST(FrontPage, ItsScenePrintsWhatThePageSays) {
   const std::string page = results_test::bytes(fs::path(SOURCE_DIR) / "README.md");
-  const auto begin = page.find("```toml\n") + 8;
+  const auto block = [&](const std::string& fence) {
+    const auto begin = page.find(fence) + fence.size();
+    return page.substr(begin, page.find("```", begin) - begin);
+  };
   const results_test::Directory directory;
-  write(directory / "my_shaft.toml", page.substr(begin, page.find("```", begin) - begin));
+  write(directory / "my_shaft.toml", block("```toml\n"));
   const auto run = as_a_user(directory.path, "run my_shaft.toml");
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto shaft = summary(directory / "results/my_shaft")["bodies"]["shaft"];
-  const auto printed = page.find("peak von Mises stress 43.1 MPa");
-  EXPECT_NE(printed, std::string::npos);
-  EXPECT_NEAR(shaft["governing"]["value"].get<double>(), 43.1e6, 0.05e6) << "as the page prints it";
+  std::istringstream wanted(block("```text\n"));
+  std::size_t at = 0;
+  const auto printed = lines_of(run.out);
+  for (std::string line; std::getline(wanted, line);) {
+    while (at < printed.size() && !is_same_line(printed[at], line)) ++at;
+    ASSERT_LT(at, printed.size()) << line << "\n" << run.out;
+  }
 }
 
 // A front page is read to its end: 150 lines, none wider than 100 columns but for pictures and what the

@@ -120,7 +120,8 @@ TEST(Verdict, NamesTheCauseOfAnUnsoundShaft) {
 TEST(Verdict, IsOpenWhereTheErrorReachesTheLimit) {
   const results_test::Directory directory;
   expect(directory.path,
-         {"by the beam", sound_shaft("190 N") + "[limits]\nleft_out = [\"fatigue\", \"resonance\"]\n",
+         {"by the beam",
+          sound_shaft("215 N", "600 rpm", "") + "[limits]\nleft_out = [\"fatigue\", \"resonance\"]\n",
           "shaft", "yield", "NOT JUDGED", "", "its error leaves it open"},
          "--method beam");
 }
@@ -151,12 +152,22 @@ TEST(Verdict, FailsWhereStrict) {
 // toe of another range, a life that is judged in seconds.
 TEST(Verdict, NamesTheWeldsOfAChamber) {
   const results_test::Directory directory;
-  const auto scene = chamber_alone(coarse());
-  write(directory / "scene.toml", scene);
-  const auto outcome = millstress(
-      directory.path,
-      "run scene.toml -o out --set limits.left_out='[\"resonance\"]' --set chamber.tube.wall='\"4 mm\"'");
+  const auto outcome =
+      millstress(directory.path, "run '" + shipped("vibratory_mill.toml").string() +
+                                     "' -o out --set shaft=removed --set "
+                                     "chamber.mesh.cells_through_wall=1 --set results.pictures=false");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto line = [&](std::size_t n) {
+    std::istringstream in(outcome.out);
+    std::string text;
+    for (std::size_t i = 0; i < n; ++i) std::getline(in, text);
+    return text;
+  };
+  EXPECT_NE(line(2).find("NOT OK: chamber, welds at web"), std::string::npos) << outcome.out;
+  EXPECT_LE(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 60) << outcome.out;
+  const auto page = results_test::bytes(directory / "out/report.html");
+  EXPECT_LT(page.find("<p class=\"verdict not-ok\">NOT OK: chamber, welds"), page.find("<h2>"))
+      << "before all else";
   const auto json = summary(directory / "out");
   const auto welds = finding(json["verdict"], "chamber", "welds");
   EXPECT_EQ(welds["judgement"], "NOT OK") << json["verdict"].dump(1);

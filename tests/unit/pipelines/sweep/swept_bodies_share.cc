@@ -16,7 +16,7 @@ const std::filesystem::path scenes = std::filesystem::path(SOURCE_DIR) / "pipeli
 /// same.
 bool is_of_loads(const std::string& key) {
   static const std::regex loads(
-      R"(.*\.(pressure_harmonics|half_angle|harmonics|debalance_shares.*|natural_frequencies|yield_strength|name|mass|polar_inertia|centre.*|bearing_span|pulley_plane|pulley_mass|force.*|pitch_guide|pulley_side)(\[\d+\])?|.*added_masses.*|.*forces.*|.*fatigue\..*|.*pressure\..*)");
+      R"(.*\.(pressure_harmonics|half_angle|harmonics|debalance_shares.*|natural_frequencies|yield_strength|name|mass|polar_inertia|centre.*|bearing_span|pulley_plane|pulley_mass|force.*|pitch_guide|pulley_side)(\[\d+\])?|.*added_masses.*|.*forces.*|.*fatigue\..*|.*\.material\.thickness|.*pressure\..*)");
   return std::regex_match(key, loads);
 }
 
