@@ -34,6 +34,7 @@
 #include "pipelines/loads/start_up_loads.h"
 #include "pipelines/machine_reports/torsion_report.h"
 #include "pipelines/names/name_lists.h"
+#include "pipelines/names/typography.h"
 #include "pipelines/pictures/picture.h"
 #include "pipelines/report/html_report.h"
 #include "pipelines/report/summary.h"
@@ -124,11 +125,13 @@ struct Request {
 
 void print(const Request& request, const std::string& summary, const RunRecord& record) {
   const bool is_verbose = request.options.verbosity() == Verbosity::verbose;
-  if (request.options.json)
+  if (request.options.json) {
     request.out << summary;
-  else
-    request.out << (is_verbose ? record.full_table : record.table) << "  results in "
+  } else {
+    const auto& table = is_verbose ? record.full_table : record.table;
+    request.out << (stdout_shows_utf8() ? typographic(table) : table) << "  results in "
                 << request.directory.string() << '\n';
+  }
 }
 
 /// @param summary  text of summary.json
@@ -258,21 +261,6 @@ std::vector<std::string> warn_of_default(SceneRun& run) {
   return warnings;
 }
 
-/// A beam's numbers look as good as any: without a tolerance nothing else would say how far they may be off.
-/// @return the warnings
-std::vector<std::string> warn_of_beams(SceneRun& run) {
-  std::vector<std::string> warnings;
-  for (const auto& analysis : run.analyses) {
-    if (analysis.method != Method::beam) continue;
-    const auto trouble = not_known_well(governing_stress(analysis), analysis.search);
-    if (trouble.empty()) continue;
-    const auto text = analysis.scene.name + ": not known well: " + trouble;
-    warn(run.loaded.loads, text);
-    warnings.push_back("millstress: " + text);
-  }
-  return warnings;
-}
-
 /// Whether the same run asked for again shall find these results. What was asked for and missed is tried
 /// again; the default is not: its minute ends a search wherever the machine's load has it end.
 bool is_kept(const SceneRun& run, const RequestedAccuracy& accuracy) {
@@ -378,9 +366,7 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   }
   warn_of_damage(run);
   if (is_first_rank()) learn_from(run);
-  const auto default_warnings = accuracy.by_default ? warn_of_default(run)
-                                : accuracy.once     ? warn_of_beams(run)
-                                                    : std::vector<std::string>();
+  const auto default_warnings = accuracy.by_default ? warn_of_default(run) : std::vector<std::string>();
   const auto& loads = run.loaded.loads;
   RunRecord record{is_kept(run, accuracy) ? request.key : "", run.kept_under, default_warnings};
   for (const auto& fault : write_and_draw(request, scene, run, duty ? &*duty : nullptr, folder, start, clock))

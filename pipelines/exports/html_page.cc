@@ -7,6 +7,7 @@
 
 #include "pipelines/exports/markup.h"
 #include "pipelines/files/whole_file.h"
+#include "pipelines/names/typography.h"
 
 namespace pipelines {
 namespace {
@@ -29,6 +30,10 @@ bool is_number(const std::string& cell) {
   return !cell.empty() && (std::isdigit(static_cast<unsigned char>(cell[0])) || cell[0] == '-');
 }
 
+std::string shown(const std::string& text) {
+  return escaped(typographic(text));
+}
+
 }  // namespace
 
 std::string base64(const std::string& bytes) {
@@ -46,33 +51,32 @@ std::string base64(const std::string& bytes) {
 }
 
 void HtmlPage::heading(int level, const std::string& text) {
-  body_ += fmt::format("<h{0}>{1}</h{0}>\n", level, escaped(text));
+  body_ += fmt::format("<h{0}>{1}</h{0}>\n", level, shown(text));
 }
 
 void HtmlPage::paragraph(const std::string& text) {
-  body_ += "<p>" + escaped(text) + "</p>\n";
+  body_ += "<p>" + shown(text) + "</p>\n";
 }
 
 void HtmlPage::warning(const std::string& text) {
-  body_ += "<p class=\"warning\">" + escaped(text) + "</p>\n";
+  body_ += "<p class=\"warning\">" + shown(text) + "</p>\n";
 }
 
 void HtmlPage::verdict(const std::string& judgement, const std::string& text) {
   const char* colour = judgement == "OK" ? "ok" : judgement == "NOT OK" ? "not-ok" : "not-judged";
-  body_ += fmt::format("<p class=\"verdict {}\">{}</p>\n", colour, escaped(text));
+  body_ += fmt::format("<p class=\"verdict {}\">{}</p>\n", colour, shown(text));
 }
 
 void HtmlPage::folded(const std::string& title, const std::function<void()>& add) {
   auto before = std::move(body_);
   body_.clear();
   add();
-  if (!body_.empty())
-    before += "<details><summary>" + escaped(title) + "</summary>\n" + body_ + "</details>\n";
+  if (!body_.empty()) before += "<details><summary>" + shown(title) + "</summary>\n" + body_ + "</details>\n";
   body_ = std::move(before);
 }
 
 void HtmlPage::preformatted(const std::string& text) {
-  body_ += "<pre>" + escaped(text) + "</pre>\n";
+  body_ += "<pre>" + shown(text) + "</pre>\n";
 }
 
 void HtmlPage::table(const std::vector<std::string>& titles,
@@ -82,13 +86,13 @@ void HtmlPage::table(const std::vector<std::string>& titles,
   for (std::size_t i = 0; i < titles.size(); ++i)
     body_ +=
         fmt::format("<th{}>{}</th>", i < rows[0].size() && is_number(rows[0][i]) ? " class=\"number\"" : "",
-                    escaped(titles[i]));
+                    shown(titles[i]));
   body_ += "</tr>\n";
   for (const auto& row : rows) {
     if (row.empty()) continue;
     body_ += "<tr>";
     for (const auto& cell : row)
-      body_ += fmt::format("<td{}>{}</td>", is_number(cell) ? " class=\"number\"" : "", escaped(cell));
+      body_ += fmt::format("<td{}>{}</td>", is_number(cell) ? " class=\"number\"" : "", shown(cell));
     body_ += "</tr>\n";
   }
   body_ += "</table>\n";
@@ -99,7 +103,7 @@ void HtmlPage::picture(const std::filesystem::path& png, const std::string& what
   if (!bytes) return;
   body_ += fmt::format(
       "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-      escaped(what_it_shows), base64(*bytes));
+      shown(what_it_shows), base64(*bytes));
 }
 
 std::string HtmlPage::text() const {

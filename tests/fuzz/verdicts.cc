@@ -12,6 +12,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Lines end in LF, CR LF, or CR alone, as tables of samples may.
+long lines_in(const std::string& text) {
+  long n = 1;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    n += text[i] == '\n' || (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n'));
+  return n;
+}
+
 /// Each finding has a sentence that says what to do, and a place in its file.
 std::string fault_of_findings(const std::vector<pipelines::SceneFinding>& findings) {
   if (findings.empty()) return "refused without a finding";
@@ -21,7 +29,7 @@ std::string fault_of_findings(const std::vector<pipelines::SceneFinding>& findin
     if (finding.file.empty()) return "no file: " + finding.text();
     if (n_lines.count(finding.file) == 0) {
       const auto text = read_bytes(finding.file);
-      n_lines[finding.file] = 1 + std::count(text.begin(), text.end(), '\n');
+      n_lines[finding.file] = lines_in(text);
     }
     if (finding.line > n_lines[finding.file]) return "no such line: " + finding.text();
   }

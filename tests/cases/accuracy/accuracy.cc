@@ -101,7 +101,7 @@ TEST(Accuracy, SectionsThatAgreeByChanceAreNotTrusted) {
   const auto models = first_column(directory / "out/accuracy/shaft.csv");
   const auto run =
       millstress(directory.path,
-                 "run " + scene + "--method axisymmetric --tolerance '0.2 %' --set results.pictures=false");
+                 "run " + scene + "--method axisymmetric --tolerance '0.2 %' --force --set results.pictures=false");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const double true_Pa = summary(directory / "out")["bodies"]["shaft"]["peak_von_mises"]["value"];
   const Study study(directory / "out/accuracy/accuracy.h5", models.size());

@@ -70,7 +70,7 @@ bearings = ["a", "b"])" + steel_of("shaft") +
                                       "[results]\nsnapshots = 0\npictures = false\n");
   const auto peak_with = [&](int harmonics) {
     const auto run = millstress(directory.path,
-                                "run bored.toml --method axisymmetric --tolerance none -o r --set "
+                                "run bored.toml --method axisymmetric --tolerance none --force -o r --set "
                                 "shaft.pressure_harmonics=" +
                                     std::to_string(harmonics));
     EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -44,7 +44,7 @@ snapshots = 0
 pictures = false
 )");
   const auto peak_of = [&](const std::string& arguments) {
-    const auto run = as_a_user(directory.path, "run shock.toml --method axisymmetric -o r " + arguments);
+    const auto run = as_a_user(directory.path, "run shock.toml --method axisymmetric --force -o r " + arguments);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return summary(directory / "r")["bodies"]["shaft"];
   };
@@ -81,7 +81,7 @@ name = "peeling_torque")"},
                 {"turns = 272", "turns = 8"}}));
   const auto shaft_of = [&](int instants) {
     const auto run = as_a_user(directory.path,
-                               "run teeth.toml --method axisymmetric --tolerance none -o r"
+                               "run teeth.toml --method axisymmetric --tolerance none --force -o r"
                                " --set machine.transient=removed --set shaft.fatigue=removed"
                                " --set sampling.instants_per_turn=" +
                                    std::to_string(instants));
@@ -159,7 +159,7 @@ TEST(BetweenInstants, LivesKnowTheFastestHarmonicsOfATrain) {
   write(directory / "train.toml", torsion_of_order_20());
   const auto shaft_of = [&](int instants, const std::string& more) {
     const auto run = as_a_user(directory.path,
-                               "run train.toml --method axisymmetric --tolerance none -o r "
+                               "run train.toml --method axisymmetric --tolerance none --force -o r "
                                "--set sampling.instants_per_turn=" +
                                    std::to_string(instants) + more);
     EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -200,7 +200,7 @@ TEST(BetweenInstants, TorquesAndTorsionalStressAreThoseOfTheWholeCourse) {
   const auto of = [&](int instants) {
     const auto run =
         as_a_user(directory.path,
-                  "run train.toml --method axisymmetric --tolerance none -o r "
+                  "run train.toml --method axisymmetric --tolerance none --force -o r "
                   "--set shaft.fatigue=removed --set machine.excitations[1].harmonics[1].phase=0.3 "
                   "--set machine.excitations[2].harmonics[1].phase=0.3 "
                   "--set machine.elements[1].diameter=0.04 --set sampling.instants_per_turn=" +
@@ -268,7 +268,7 @@ TEST(BetweenInstants, LivesKnowTheFastestHarmonicsOfATable) {
             R"(harmonics = [{ effect = "teeth", load = "b.torque", amplitude = 450, order = 40 }])"));
   const auto shaft_of = [&](int instants) {
     const auto run = as_a_user(directory.path,
-                               "run table.toml --method axisymmetric --tolerance none -o r "
+                               "run table.toml --method axisymmetric --tolerance none --force -o r "
                                "--set sampling.instants_per_turn=" +
                                    std::to_string(instants));
     EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -299,7 +299,7 @@ TEST(BetweenInstants, CyclesOfSamplesThatAliasAreWarnedOf) {
   write(directory / "table.toml", fatigued_under(R"(files = [{ effect = "teeth", file = "teeth.csv" }])"));
   const auto is_warned = [&](int instants) {
     const auto run = as_a_user(directory.path,
-                               "run table.toml --method beam --tolerance none -o r "
+                               "run table.toml --method beam --tolerance none --force -o r "
                                "--set sampling.instants_per_turn=" +
                                    std::to_string(instants));
     EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -322,7 +322,7 @@ TEST(BetweenInstants, SamplesBoundASquareWave) {
   write(directory / "table.toml", fatigued_under(R"(files = [{ effect = "teeth", file = "square.csv" }])"));
   for (const int n : {120, 720}) {
     write_square(n);
-    const auto run = as_a_user(directory.path, "run table.toml --method axisymmetric --tolerance none -o r");
+    const auto run = as_a_user(directory.path, "run table.toml --method axisymmetric --tolerance none --force -o r");
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto peak = summary(directory / "r")["bodies"]["shaft"]["peak_von_mises"];
     EXPECT_LT(peak["error"]["time_sampling"].get<double>(), 0.1 * peak["value"].get<double>()) << n;

@@ -133,8 +133,12 @@ TEST(EffectsAuto, WhatIsOffIsNotSolved) {
   auto named = run(directory.path, with_effects(scene, runs.chosen["input"]["effects"].dump()),
                    "--method axisymmetric --tolerance '50 %'");
   ASSERT_FALSE(named.is_null());
+  auto chosen_shaft = chosen;
+  for (auto* shaft : {&named["bodies"]["shaft"], &chosen_shaft})
+    for (auto& zone : (*shaft)["zones"])
+      if (zone.contains("causes")) zone["causes"].erase("damage");  // states what was dropped in its error
   for (const char* quantity : {"channels", "peak_principal", "zones", "dofs", "torsion"})
-    EXPECT_EQ(named["bodies"]["shaft"][quantity], chosen[quantity]) << quantity;
+    EXPECT_EQ(named["bodies"]["shaft"][quantity], chosen_shaft[quantity]) << quantity;
   EXPECT_EQ(named["bodies"]["shaft"]["peak_von_mises"]["value"], chosen["peak_von_mises"]["value"]);
   EXPECT_EQ(named["loads"], runs.chosen["loads"]);
 }

@@ -184,6 +184,7 @@ std::map<std::string, std::string> contents(const fs::path& directory) {
     if (entry.path().filename() == "run.json") {  // so does the table that was printed
       auto json = nlohmann::ordered_json::parse(text);
       json.erase("table");
+      json.erase("full_table");
       text = json.dump();
     }
     if (entry.path().filename() == "manifest.json") {  // their checksums are those of the timing too
@@ -194,7 +195,7 @@ std::map<std::string, std::string> contents(const fs::path& directory) {
       json.erase("checksum");
       text = json.dump();
     }
-    if (entry.path().filename() == "report.html") text.resize(text.find("<h2>Time and memory"));
+    if (entry.path().filename() == "report.html") text.resize(text.find("<details><summary>Time and memory"));
     files[fs::relative(entry.path(), directory).string()] = std::move(text);
   }
   return files;

@@ -73,6 +73,7 @@ TEST(Runs, RepeatBitByBitFreshAndReused) {
                                      "shaft/zone_tree.csv",
                                      "shaft/diagrams.csv",
                                      "shaft/torsion.csv",
+                                     "shaft/fatigue.csv",
                                      "shaft/torsion_cycle.csv"};
   std::set<std::string> found;
   for (const auto& [name, bytes] : first) {
@@ -87,7 +88,7 @@ TEST(Runs, RepeatBitByBitFreshAndReused) {
   // The page holds the headline stress, and can be made again from the files alone, timing and all.
   const auto page = results_test::bytes(directory / "first/report.html");
   char peak[32];
-  std::snprintf(peak, sizeof peak, "%.1f MPa +- ",
+  std::snprintf(peak, sizeof peak, "%.1f MPa \u00b1 ",
                 summary(directory / "first")["bodies"]["shaft"]["governing"]["value"].get<double>() / 1e6);
   EXPECT_NE(page.find(peak), std::string::npos) << peak;
   fs::remove(directory / "first/report.html");

@@ -64,7 +64,7 @@ TEST(Sweeps, LeaveNoChartOfOtherPoints) {
   points_of(directory.path, speeds + " --vary 'machine.charge.mass = 10, 20 kg'");
   const bool draws = fs::exists(directory / "swept/map.svg");
   write(directory / "swept/map_notes.txt", "the user's");
-  points_of(directory.path, speeds);
+  points_of(directory.path, speeds + " --force");
   for (const auto& entry : fs::directory_iterator(directory / "swept"))
     EXPECT_TRUE(entry.path().extension() == ".txt" || entry.path().filename().string().rfind("map", 0) != 0)
         << entry.path();

@@ -16,7 +16,7 @@ namespace {
 
 /// The run of a point alone, on the same mesh.
 nlohmann::json alone(const fs::path& directory, const std::string& scene, const nlohmann::json& point) {
-  std::string arguments = "run " + scene + " -o alone";
+  std::string arguments = "run " + scene + " --force -o alone";
   for (const auto& [key, value] : point["keys"].items())
     if (value != "kept") arguments += " --set '" + key + "=" + value.get<std::string>() + "'";
   const auto outcome = millstress(directory, arguments);
@@ -162,7 +162,7 @@ TEST(Sweeps, EffectsMaterialsAndMeshesAreValuesLikeAnyOther) {
   for (const char* vary : {"effects.charge_lag = on, off' --vary 'shaft.material.yield_strength = 250 MPa",
                            "shaft.mesh.sectors = 8, 12", "sampling.instants_per_turn = 100, 96"}) {
     const auto points =
-        points_of(directory.path, std::string("mill.toml --tolerance none -o swept --vary '") + vary + "'");
+        points_of(directory.path, std::string("mill.toml --tolerance none --force -o swept --vary '") + vary + "'");
     ASSERT_EQ(points.size(), 2u) << vary;
     for (const auto& point : points) expect_same(point, alone(directory.path, "mill.toml", point), "shaft");
   }
