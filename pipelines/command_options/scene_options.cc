@@ -27,11 +27,9 @@ void add_threads_option(CLI::App& command, int& n_threads, ChosenCommand& chosen
 }
 
 void add_results_option(CLI::App& command, std::filesystem::path& output) {
-  command.add_option("-o,--output", output, "result directory (default: results/<scene>)");
-}
-
-std::filesystem::path results_directory(const std::filesystem::path& output, const Scene& scene) {
-  return output.empty() ? std::filesystem::path("results") / scene.file.stem() : output;
+  command.add_option(
+      "-o,--output", output,
+      "result directory (default: results/<scene>, or <scene>-2 ... beside results of another --set)");
 }
 
 }  // namespace pipelines

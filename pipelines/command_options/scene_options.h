@@ -16,6 +16,7 @@ struct SceneOptions {
   std::filesystem::path scene;
   std::vector<std::string> settings;    ///< --set KEY=VALUE, each
   bool quiet = false, verbose = false;  ///< quiet wins
+  bool force = false;                   ///< --force of commands that write a directory (result_place.h)
 
   Verbosity verbosity() const;
 };
@@ -30,8 +31,5 @@ void add_threads_option(CLI::App& command, int& n_threads, ChosenCommand& chosen
 
 /// -o of the commands that write into results/<scene's name> unless told otherwise.
 void add_results_option(CLI::App& command, std::filesystem::path& output);
-
-/// @param output  as given; empty: not given
-std::filesystem::path results_directory(const std::filesystem::path& output, const Scene& scene);
 
 }  // namespace pipelines

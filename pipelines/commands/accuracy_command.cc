@@ -8,11 +8,13 @@
 #include "pipelines/accuracy/accuracy.h"
 #include "pipelines/accuracy/accuracy_report.h"
 #include "pipelines/command_options/option_value.h"
+#include "pipelines/command_options/result_place.h"
 #include "pipelines/command_options/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/process_limits.h"
 #include "pipelines/disk/staging.h"
 #include "pipelines/files/atomic_file.h"
+#include "pipelines/names/nearest_name.h"
 #include "pipelines/pictures/accuracy_chart.h"
 #include "pipelines/result_files/manifest.h"
 #include "pipelines/result_files/staged_results.h"
@@ -30,6 +32,14 @@ struct AccuracyCommandOptions : SceneOptions {
   int n_threads = all_cores;
 };
 
+/// "; did you mean "shaft"?", or nothing.
+std::string near_body(const AccuracyCommandOptions& options, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const auto& body : scene.bodies) names.push_back(body.name);
+  const auto nearest = nearest_name(options.body, names);
+  return nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?";
+}
+
 AccuracyOptions study_options_of(const AccuracyCommandOptions& options, const Scene& scene) {
   AccuracyOptions study;
   study.n_threads = options.n_threads;
@@ -45,7 +55,7 @@ AccuracyOptions study_options_of(const AccuracyCommandOptions& options, const Sc
       throw OptionError("--reference " + options.reference + ": must be positive; write a stress above 0");
   }
   if (!options.body.empty() && scene.body(options.body) == nullptr)
-    throw OptionError("--body " + options.body + ": the scene has no such body");
+    throw OptionError("--body " + options.body + ": the scene has no such body" + near_body(options, scene));
   return study;
 }
 
@@ -70,7 +80,8 @@ void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
     throw StageRefused(scene.file.string() +
                        ": has no body, and the load stage alone is exact; add one, as [shaft], to the scene");
   AccuracyOptions study_options = study_options_of(options, scene);
-  const auto directory = results_directory(options.output, scene) / "accuracy";
+  const auto variant = variant_of(options);
+  const auto directory = own_directory(options.output, default_directory(options), variant) / "accuracy";
   const auto names_of_body = [](const std::string& name) {
     return std::vector<std::string>{name + ".txt", name + ".csv", name + "_gci.csv", name + ".png"};
   };
@@ -86,7 +97,7 @@ void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const auto& name = scene.bodies[i].name;
     if (!options.body.empty() && name != options.body) continue;
-    StagedResults staged(directory, names_of(names_of_body(name)));
+    StagedResults staged(directory, names_of(names_of_body(name)), "-o", variant);
     const Staging models(OpenDirectory::at(staged.directory()));
     study_options.directory = models.folder().path();
     studies.push_back(study_accuracy(scene, i, study_options, clock));
@@ -102,7 +113,7 @@ void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
       std::cerr << "no chart: " << why_nothing_draws() << "; the CSV has the same figures\n";
     staged.publish();
   }
-  StagedResults staged(directory, names_of({"accuracy.h5"}));
+  StagedResults staged(directory, names_of({"accuracy.h5"}), "-o", variant);
   write_accuracy_h5(staged.folder() / "accuracy.h5", studies);
   staged.publish();
   write_page(directory);
@@ -116,6 +127,7 @@ void add_accuracy_command(CLI::App& app, ChosenCommand& chosen) {
   auto* command = add_scene_command(
       app, "accuracy", "what accuracy costs in time: error against seconds, as table and chart", *options);
   add_results_option(*command, options->output);
+  add_force_option(*command, *options);
   command->add_option("--body", options->body, "this body alone, like shaft");
   command->add_option("--tolerance", options->tolerance,
                       "what a run is chosen for (default: the scene's, or \"5 %\")");

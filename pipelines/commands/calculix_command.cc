@@ -8,6 +8,7 @@
 #include "fem/model/model.h"
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/calculix/calculix_model.h"
+#include "pipelines/command_options/result_place.h"
 #include "pipelines/command_options/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/effects/effect_choice.h"
@@ -39,10 +40,11 @@ void refuse_what_has_no_equal(const Scene& scene) {
 void calculix(const CalculixCommandOptions& options, std::ostream& out) {
   Scene scene = read_scene(options.scene, options.settings);
   refuse_what_has_no_equal(scene);
-  const auto directory = results_directory(options.output, scene);
+  const auto variant = variant_of(options);
+  const auto directory = own_directory(options.output, default_directory(options), variant);
   std::vector<std::string> names;
   for (const auto& body : scene.bodies) names.push_back(body.name + ".inp");
-  StagedResults staged(directory, names_of(names));
+  StagedResults staged(directory, names_of(names), "-o", variant);
   StageClock clock(progress_on_stderr(options.verbosity()));
   const fem::Environment environment(all_cores);
   const auto meshed = clock.run("mesh", [&] { return mesh_bodies(scene); });
@@ -84,6 +86,7 @@ void add_calculix_command(CLI::App& app, ChosenCommand& chosen) {
                                     "the bodies' meshes and unit loads as input files of CalculiX", *options);
   command->add_option("-o,--output", options->output,
                       "directory of the <body>.inp (default: results/<scene>)");
+  add_force_option(*command, *options);
   command->callback(to_choose(chosen, options, calculix));
 }
 

@@ -4,6 +4,7 @@
 
 #include "pipelines/command_options/option_value.h"
 #include "pipelines/command_options/output_files.h"
+#include "pipelines/command_options/result_place.h"
 #include "pipelines/command_options/scene_machine.h"
 #include "pipelines/command_options/scene_options.h"
 #include "pipelines/common/constants.h"
@@ -38,9 +39,11 @@ void show_free_body(const FreeBodyCommandOptions& options, std::ostream& out) {
   scene.machine = machine_with_masses(scene);
   const auto body = free_body(scene);
   const std::vector<std::string> pictures{"free_body.png", "free_body.svg"};
+  if (!options.output.empty()) require_own_variant(options.output, variant_of(options));
   std::optional<StagedResults> staged;
   if (!options.output.empty())
-    staged.emplace(options.output, names_like(R"(free_body(\.(csv|pvd|png|svg)|_[0-9]{3,}\.vtp))"));
+    staged.emplace(options.output, names_like(R"(free_body(\.(csv|pvd|png|svg)|_[0-9]{3,}\.vtp))"), "-o",
+                   variant_of(options));
   const auto instant = instant_at(body, angle_rad);
   bool is_drawn = false;
   if (staged) {
@@ -66,6 +69,7 @@ void add_free_body_command(CLI::App& app, ChosenCommand& chosen) {
   command->add_option("--at", options->at, "angle of the drive, clockwise, like \"45 deg\" (default: 0 deg)");
   command->add_option("-o,--output", options->output,
                       "directory for the picture, the table and the animation over the turn");
+  add_force_option(*command, *options);
   command->add_flag("--json", options->json, "print JSON instead of the table");
   command->callback(to_choose(chosen, options, show_free_body));
 }

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "pipelines/command_options/output_files.h"
+#include "pipelines/command_options/result_place.h"
 #include "pipelines/command_options/scene_options.h"
 #include "pipelines/commands/run_results.h"
 #include "pipelines/common/errors.h"
@@ -23,14 +24,14 @@ void show_history(const HistoryCommandOptions& options, std::ostream& out) {
   if (scene.bodies.empty())
     throw StageRefused(scene.file.string() +
                        ": has no body, and only bodies have a stress; add one, as [shaft], to the scene");
-  const auto directory = options.output.empty()
-                             ? std::filesystem::path(results_directory({}, scene).string() + "_history")
-                             : options.output;
+  const auto variant = variant_of(options);
+  const auto directory = own_directory(options.output, default_directory(options, "_history"), variant);
   std::string bodies;
   for (const auto& body : scene.bodies) bodies += (bodies.empty() ? "" : "|") + body.name;
   require_own_outputs(directory, names_like(R"(histories\.h5|()" + bodies + R"()_.+\.csv)"));
   std::optional<ToleranceNotMet> not_met;
-  const auto results = results_directory(options.results, scene);
+  const auto results = results_directory(options.results, default_directory(options), variant);
+  require_own_variant(results, variant, "--results");
   try {
     bring_up_to_date(options, results);
   } catch (const ToleranceNotMet& error) {
@@ -38,7 +39,7 @@ void show_history(const HistoryCommandOptions& options, std::ostream& out) {
   }
   const auto histories = read_stress_histories(results, options.at);
   const auto files = stress_history_files(histories);
-  StagedResults staged(directory, names_of(files));
+  StagedResults staged(directory, names_of(files), "-o", variant);
   write_stress_histories(staged.folder(), histories);
   staged.publish();
   print_stress_histories(out, histories, options.json);
@@ -63,6 +64,7 @@ void add_history_command(CLI::App& app, ChosenCommand& chosen) {
   command->add_option("--results", options->results,
                       "directory of the run; it is run first unless nothing has changed (default: "
                       "results/<scene>)");
+  add_force_option(*command, *options);
   add_run_options(*command, *options, chosen);
   command->add_flag("--json", options->json, "print JSON instead of the table");
   command->callback(to_choose(chosen, options, show_history));

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -14,13 +15,13 @@
 
 #include "fem/model/model.h"
 #include "fem/ranks/ranks.h"
+#include "pipelines/command_options/command_line.h"
 #include "pipelines/command_options/commands.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
 #include "pipelines/common/process_limits.h"
 #include "pipelines/common/several_ranks.h"
 #include "pipelines/common/version.h"
-#include "pipelines/names/nearest_name.h"
 
 namespace {
 
@@ -68,16 +69,27 @@ void refuse_forgotten_values(CLI::App& app) {
         });
 }
 
+std::vector<pipelines::CommandNames> names_of_commands(const CLI::App& app) {
+  std::vector<pipelines::CommandNames> commands;
+  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    commands.push_back({command->get_name(), {}});
+    for (const auto* option : command->get_options()) {
+      for (const auto& name : option->get_lnames()) commands.back().options.push_back("--" + name);
+      for (const auto& name : option->get_snames()) commands.back().options.push_back("-" + name);
+    }
+  }
+  return commands;
+}
+
 /// Of a wrong command line: prints what is wrong with it.
+/// @param arguments  without the program's name
 /// @return 0 for --help and --version
-int refuse(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-' || !app.get_subcommands().empty()) return app.exit(error);
-  std::vector<std::string> names;
-  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(command->get_name());
-  const auto nearest = pipelines::nearest_name(argv[1], names);
-  std::cerr << "millstress: " << argv[1] << ": is no command"
-            << (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") << "; --help lists them\n";
+int refuse(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments) {
+  const bool asks_for_text = error.get_exit_code() == 0;
+  const auto unknown =
+      asks_for_text ? std::string() : pipelines::unknown_name(arguments, names_of_commands(app));
+  if (unknown.empty()) return app.exit(error);
+  std::cerr << unknown << '\n';
   return pipelines::scene_is_wrong;
 }
 
@@ -143,7 +155,9 @@ int run_on_ranks(const pipelines::ChosenCommand& chosen) {
 /// Reads the arguments and does what they say.
 int run(int argc, char** argv) {
   const bool first = fem::this_rank(MPI_COMM_WORLD) == 0;
-  CLI::App app{"From the kinetics of a mill to stress zones in its shaft and chamber."};
+  CLI::App app{
+      "From the kinetics of a mill to stress zones in its shaft and chamber.\n"
+      "`millstress SCENE.toml` runs the scene; `millstress help COMMAND` lists a command's options."};
   app.set_version_flag("--version", std::string("millstress ") + pipelines::version);
   app.require_subcommand(1);
   pipelines::ChosenCommand chosen;
@@ -157,11 +171,14 @@ int run(int argc, char** argv) {
     add(app, chosen);
   refuse_forgotten_values(app);
 
+  const auto arguments = pipelines::with_command(
+      std::vector<std::string>(argv + std::min(argc, 1), argv + argc), names_of_commands(app));
   try {
-    app.parse(argc, argv);
+    app.name(argc > 0 ? argv[0] : "");
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& error) {
     if (!first) return pipelines::done;
-    if (refuse(app, error, argc, argv) != 0) return pipelines::scene_is_wrong;
+    if (refuse(app, error, arguments) != 0) return pipelines::scene_is_wrong;
     return guarded(require_written_stdout);
   }
   if (fem::n_ranks(MPI_COMM_WORLD) > 1) return run_on_ranks(chosen);

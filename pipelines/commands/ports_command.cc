@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fem/values/body_nodes.h"
+#include "pipelines/command_options/result_place.h"
 #include "pipelines/command_options/scene_options.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/process_limits.h"
@@ -25,11 +26,12 @@ void ports(const PortsCommandOptions& options, std::ostream& out) {
   if (scene.bodies.empty())
     throw StageRefused(scene.file.string() +
                        ": has no body, and only bodies have ports; add one, as [shaft], to the scene");
-  const auto directory = results_directory(options.output, scene);
+  const auto variant = variant_of(options);
+  const auto directory = own_directory(options.output, default_directory(options), variant);
   std::vector<std::string> names;
   for (const auto& body : scene.bodies)
     for (const char* file : {"/ports.vtu", "/ports.png"}) names.push_back(body.name + file);
-  StagedResults staged(directory, names_of(names));
+  StagedResults staged(directory, names_of(names), "-o", variant);
   StageClock clock(progress_on_stderr(options.verbosity()));
 
   // All meshes before any file: a body that cannot be meshed leaves nothing behind.
@@ -63,6 +65,7 @@ void add_ports_command(CLI::App& app, ChosenCommand& chosen) {
   auto* command =
       add_scene_command(app, "ports", "pictures of the bodies with their ports coloured and named", *options);
   add_results_option(*command, options->output);
+  add_force_option(*command, *options);
   command->callback(to_choose(chosen, options, ports));
 }
 

@@ -64,12 +64,42 @@ std::optional<FileList> read_manifest(const OpenDirectory& directory) {
   return list;
 }
 
-std::string manifest_text(const FileList& list) {
+std::optional<ResultsOf> read_results_of(const OpenDirectory& directory) {
+  if (!read_manifest(directory)) return std::nullopt;
+  const ManifestJson json = read_json_file(directory.path() / manifest_name);
+  try {
+    const auto& entry = json.at("of");
+    ResultsOf of{entry.at("scene").get<std::string>(), entry.at("settings").get<std::vector<std::string>>()};
+    if (entry.contains("sweep")) of.sweep = entry.at("sweep").get<std::vector<std::string>>();
+    return of;
+  } catch (const ManifestJson::exception&) {
+    return std::nullopt;
+  }
+}
+
+ResultsOf as_json_has_it(ResultsOf of) {
+  const auto replace = [](std::string& text) {
+    text =
+        ManifestJson::parse(ManifestJson(text).dump(-1, ' ', false, ManifestJson::error_handler_t::replace))
+            .get<std::string>();
+  };
+  replace(of.scene);
+  for (auto& setting : of.settings) replace(setting);
+  if (of.sweep)
+    for (auto& option : *of.sweep) replace(option);
+  return of;
+}
+
+std::string manifest_text(const FileList& list, const std::optional<ResultsOf>& of) {
   ManifestJson files = ManifestJson::object();
   for (const auto& [name, file] : list) files[name] = {{"bytes", file.bytes}, {"xxh3_128", file.checksum}};
-  const ManifestJson json{{"program", {{"name", program_name}, {"version", version}}},
-                          {"files", files},
-                          {"checksum", list_checksum(files)}};
+  ManifestJson json{{"program", {{"name", program_name}, {"version", version}}}};
+  if (of) {
+    json["of"] = {{"scene", of->scene}, {"settings", of->settings}};
+    if (of->sweep) json["of"]["sweep"] = *of->sweep;
+  }
+  json["files"] = files;
+  json["checksum"] = list_checksum(files);
   return text_of_manifest(json);
 }
 

@@ -28,8 +28,25 @@ using FileList = std::map<std::string, ListedFile>;
 ///         lead out of the directory or are hidden
 std::optional<FileList> read_manifest(const OpenDirectory& directory);
 
+/// Of what scene the files of a directory are (variant.h).
+struct ResultsOf {
+  std::string scene;                                ///< its file, relative to the directory
+  std::vector<std::string> settings;                ///< --set, "KEY=VALUE", sorted
+  std::optional<std::vector<std::string>> sweep{};  ///< options of a sweep; nothing: there is none
+
+  bool operator==(const ResultsOf& other) const {
+    return scene == other.scene && settings == other.settings && sweep == other.sweep;
+  }
+};
+
+/// @return empty without a manifest, or with one that does not say so
+std::optional<ResultsOf> read_results_of(const OpenDirectory& directory);
+
+/// With what is no UTF-8 as it comes back from a manifest.
+ResultsOf as_json_has_it(ResultsOf of);
+
 /// The whole text of a manifest.
-std::string manifest_text(const FileList& files);
+std::string manifest_text(const FileList& files, const std::optional<ResultsOf>& of = {});
 
 /// Whether a file, behind no link, has the size and the content that are listed. Reads all of it.
 bool is_as_listed(const OpenDirectory& directory, const std::string& name, const ListedFile& listed);

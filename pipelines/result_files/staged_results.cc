@@ -192,6 +192,26 @@ OpenDirectory looked_at(const fs::path& name, const OutputNames& names, const st
   return directory;
 }
 
+/// Another process may have written there since these results were begun.
+/// @param found, held  what the manifest said then, and says now
+void require_no_newcomer(const fs::path& directory, const std::string& option,
+                         const std::optional<Variant>& variant, const std::optional<ResultsOf>& found,
+                         const std::optional<ResultsOf>& held) {
+  if (!variant || !held || held == found) return;
+  if (const auto other = held_of_another(directory, *held, *variant); !other.empty())
+    throw OptionError(option + ' ' + directory.string() + ": holds " + other +
+                      " by now, which came while this was computed; run it again with another directory");
+}
+
+/// What the manifest says from now on. A sweep stays beside other results of its scene.
+std::optional<ResultsOf> results_of(const fs::path& directory, const std::optional<Variant>& variant,
+                                    const std::optional<ResultsOf>& held) {
+  if (!variant) return held;
+  auto of = variant->in(directory);
+  if (!of.sweep && held && held->scene == of.scene && held->settings == of.settings) of.sweep = held->sweep;
+  return of;
+}
+
 }  // namespace
 
 void require_own_outputs(const OpenDirectory& directory, const OutputNames& names,
@@ -209,12 +229,15 @@ void require_own_outputs(const fs::path& name, const OutputNames& names, const s
   if (const auto directory = OpenDirectory::existing(name)) require_own_outputs(*directory, names, option);
 }
 
-StagedResults::StagedResults(fs::path directory, OutputNames names, std::string option)
+StagedResults::StagedResults(fs::path directory, OutputNames names, std::string option,
+                             std::optional<Variant> variant)
     : name_(std::move(directory)),
       missing_{missing_directories(name_)},
       names_(std::move(names)),
       option_(std::move(option)),
+      variant_(std::move(variant)),
       directory_(looked_at(name_, names_, option_)),
+      found_(read_results_of(directory_)),
       staging_(directory_) {}
 
 void StagedResults::publish() {
@@ -235,7 +258,9 @@ void StagedResults::publish() {
   }
   if (const auto why = why_foreign(directory_, manifest_name, {}); !why.empty())
     refuse(directory_, manifest_name, why, option_);
-  write_text_file(folder() / manifest_name, manifest_text(results));
+  const auto held = read_results_of(directory_);
+  require_no_newcomer(name_, option_, variant_, found_, held);
+  write_text_file(folder() / manifest_name, manifest_text(results, results_of(name_, variant_, held)));
   moved.emplace_back(manifest_name);
   std::set<std::string> folders{""};
   for (const auto& name : moved) {

@@ -13,11 +13,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pipelines/disk/staging.h"
 #include "pipelines/result_files/result_names.h"
+#include "pipelines/result_files/variant.h"
 
 namespace pipelines {
 
@@ -26,9 +28,11 @@ public:
   /// Finishes what a killed run has left, and makes the hidden folder.
   /// @param names   of all that the command may write
   /// @param option  that named the directory
+  /// @param variant  what they are of, for the manifest; nothing: what it says stays
   /// @throws OptionError naming option, file and remedy if a file with one of the names is not this program's
   /// @throws std::filesystem::filesystem_error if the directory cannot be made
-  StagedResults(std::filesystem::path directory, OutputNames names, std::string option = "-o");
+  StagedResults(std::filesystem::path directory, OutputNames names, std::string option = "-o",
+                std::optional<Variant> variant = {});
   StagedResults(const StagedResults&) = delete;
   StagedResults& operator=(const StagedResults&) = delete;
 
@@ -40,7 +44,8 @@ public:
 
   /// Puts everything that was written into its place, with the manifest, and removes what earlier commands
   /// have left under names that this one gives: for bodies that a run does not have their unit responses too.
-  /// @throws OptionError if something would be replaced that must not be; nothing is touched then
+  /// @throws OptionError if something would be replaced that must not be, or if results of another variant
+  ///         have come there meanwhile; nothing is touched then
   /// @throws FileError, std::filesystem::filesystem_error if the disk does not take it, or if not exactly
   /// what
   ///         was written is there
@@ -57,7 +62,9 @@ private:
   MissingDirectories missing_;
   OutputNames names_;
   std::string option_;
+  std::optional<Variant> variant_;
   OpenDirectory directory_;
+  std::optional<ResultsOf> found_;  ///< what the directory held at first
   Staging staging_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "meshes/values/utf8.h"
 #include "pipelines/common/errors.h"
+#include "pipelines/scene_reader/removed_body.h"
 
 namespace pipelines {
 namespace {
@@ -58,6 +59,10 @@ public:
 
   const std::string& key() const { return key_; }
   bool removes() const { return value_ == "removed"; }
+  /// "shaft" of shaft=removed; empty where the key leads deeper, or to no body.
+  std::string removed_body(const TomlNode& root) const {
+    return removes() && parts_.size() == 1 && is_body_table(root, key_) ? key_ : "";
+  }
   /// The numbers of items on the way, to remove the last ones first.
   std::vector<std::size_t> items() const {
     std::vector<std::size_t> numbers;
@@ -252,7 +257,8 @@ void collect(const TomlNode& table, const std::string& prefix, const std::string
 }
 
 /// Of one array the last item is removed first: numbers are those of the file.
-void apply_all(const std::vector<Setting>& settings, TomlNode& root) {
+/// @return what went with bodies that were removed
+std::vector<std::string> apply_all(const std::vector<Setting>& settings, TomlNode& root) {
   std::set<std::string> keys;
   std::vector<Setting> removals;
   for (const auto& setting : settings) {
@@ -264,15 +270,26 @@ void apply_all(const std::vector<Setting>& settings, TomlNode& root) {
   }
   std::stable_sort(removals.begin(), removals.end(),
                    [](const Setting& a, const Setting& b) { return a.items() > b.items(); });
-  for (const auto& removal : removals) removal.remove(root);
+  std::vector<std::string> told;
+  for (const auto& removal : removals) {
+    const auto body = removal.removed_body(root);
+    const auto* const entry = body.empty() ? nullptr : root.find(body);
+    const TomlNode table = entry == nullptr ? TomlNode() : entry->value;
+    removal.remove(root);
+    if (body.empty()) continue;
+    const auto more = drop_what_needs(root, body, table);
+    told.insert(told.end(), more.begin(), more.end());
+  }
+  return told;
 }
 
 }  // namespace
 
-void set_keys(TomlNode& root, const std::vector<std::string>& settings, const std::filesystem::path& file) {
+std::vector<std::string> set_keys(TomlNode& root, const std::vector<std::string>& settings,
+                                  const std::filesystem::path& file) {
   std::vector<Setting> all;
   for (const auto& text : settings) all.emplace_back(text, file);
-  apply_all(all, root);
+  return apply_all(all, root);
 }
 
 void set_entries(TomlNode& root, const TomlNode& table, const std::string& key,

@@ -15,11 +15,14 @@ namespace pipelines {
 /// What is set has no place in the file: 0:0.
 ///
 /// The word removed, without quotes, takes the key or the item away, after all that is set:
-/// machine.springs[2]=removed. effects.NAME=on or off switches one effect of the scene's list.
+/// machine.springs[2]=removed. effects.NAME=on or off switches one effect of the scene's list. With a body
+/// (shaft=removed) goes what needs it (removed_body.h).
+/// @return a sentence for each thing that went with a body
 /// @throws SceneError where a setting is no such text, leads into no table or beyond an array's end, or sets
 ///   a key again;
 ///   where what is removed or switched off is not there
-void set_keys(TomlNode& root, const std::vector<std::string>& settings, const std::filesystem::path& file);
+std::vector<std::string> set_keys(TomlNode& root, const std::vector<std::string>& settings,
+                                  const std::filesystem::path& file);
 
 /// Values that a table of the scene gives to other keys of it ([[duty]]): each entry by its key, which may
 /// lead through tables (set.machine.drive.speed) or be quoted as for set_keys

@@ -15,6 +15,12 @@ std::string quoted_names() {
   return listed(names);
 }
 
+/// "; did you mean "beam"?", or nothing.
+std::string near_method(const std::string& text) {
+  const auto nearest = nearest_name(text, method_names());
+  return nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?";
+}
+
 /// What is wrong with a method for the scene's bodies, and what to do; empty: nothing.
 std::string remedy_for(Method method, const Scene& scene) {
   for (const auto& body : scene.bodies)
@@ -30,7 +36,7 @@ Method read_method(SceneTable& root, const Scene& scene) {
   if (text.empty()) return Method::automatic;  // refused already
   const auto method = method_of(text);
   if (!method)
-    root.refuse("method", "unknown model; write one of " + quoted_names());
+    root.refuse("method", "unknown model" + near_method(text) + "; write one of " + quoted_names());
   else if (const auto remedy = remedy_for(*method, scene); !remedy.empty())
     root.refuse("method", remedy);
   return method.value_or(Method::automatic);
@@ -40,7 +46,8 @@ Method requested_method(const std::string& option, const Scene& scene) {
   if (option.empty()) return scene.method;
   const auto method = method_of(option);
   if (!method)
-    throw OptionError("--method " + option + ": unknown model; write one of " + listed(method_names()));
+    throw OptionError("--method " + option + ": unknown model" + near_method(option) + "; write one of " +
+                      listed(method_names()));
   if (scene.bodies.empty())
     throw OptionError(
         "--method " + option +

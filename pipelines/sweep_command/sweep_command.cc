@@ -5,6 +5,7 @@
 #include <iostream>
 #include <optional>
 #include <regex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "fem/ranks/ranks.h"
 #include "pipelines/body_stages/respond.h"
 #include "pipelines/command_options/option_value.h"
+#include "pipelines/command_options/result_place.h"
 #include "pipelines/common/errors.h"
 #include "pipelines/common/failure.h"
 #include "pipelines/common/several_ranks.h"
@@ -20,6 +22,7 @@
 #include "pipelines/files/replaceable.h"
 #include "pipelines/responses/response_key.h"
 #include "pipelines/result_files/staged_results.h"
+#include "pipelines/scene/requested_method.h"
 #include "pipelines/scene_reader/key_settings.h"
 #include "pipelines/scene_reader/scene_tree.h"
 #include "pipelines/sweep/points_on_ranks.h"
@@ -50,6 +53,7 @@ SweepRequest requested(const SweepCommandOptions& options, SweepRequest request)
   refuse_without_use(options.loads_only && options.zones, "--zones", with_loads);
   refuse_without_use(options.loads_only && !options.tolerance.empty(), "--tolerance", with_loads);
   refuse_without_use(options.loads_only && !options.time_limit.empty(), "--time-limit", with_loads);
+  refuse_without_use(options.loads_only && !options.method.empty(), "--method", with_loads);
   request.zones = (request.zones || options.zones) && !options.loads_only;
   return request;
 }
@@ -60,6 +64,7 @@ std::string journal_key(const SweepCommandOptions& options, const RequestedAccur
   std::string key = program_fingerprint() + '\n';
   for (const auto& input : noted_inputs()) key += input.file.string() + ' ' + input.hash + '\n';
   for (const auto& setting : options.settings) key += setting + '\n';
+  if (!options.method.empty()) key += "--method " + options.method + '\n';
   return key + fmt::format("{} {} {} {} {} {} {}", options.loads_only, zones, accuracy.tolerance,
                            accuracy.time_limit_s, accuracy.once, accuracy.by_default, n_threads);
 }
@@ -145,12 +150,71 @@ OutputNames sweep_names() {
           }};
 }
 
+/// What the command line says that is swept, each as it is written there.
+std::vector<std::string> asked_on_command_line(const SweepCommandOptions& options) {
+  std::vector<std::string> asked;
+  for (const auto& variation : options.vary) asked.push_back("--vary " + variation);
+  if (!options.design.empty()) asked.push_back("--design " + options.design);
+  if (options.n_points > 0) asked.push_back("--points " + std::to_string(options.n_points));
+  if (options.seed >= 0) asked.push_back("--seed " + std::to_string(options.seed));
+  if (options.loads_only) asked.emplace_back("--loads");
+  return asked;
+}
+
+/// The options of an earlier sweep.
+/// @param asked  of asked_on_command_line
+/// @throws std::exception where a number is none
+SweepCommandOptions options_of(const std::vector<std::string>& asked) {
+  SweepCommandOptions options;
+  for (const auto& text : asked) {
+    const auto space = std::min(text.find(' '), text.size());
+    const auto name = text.substr(0, space), value = text.substr(std::min(space + 1, text.size()));
+    if (name == "--vary") options.vary.push_back(value);
+    if (name == "--design") options.design = value;
+    if (name == "--points") options.n_points = std::stoi(value);
+    if (name == "--seed") options.seed = std::stol(value);
+    if (name == "--loads") options.loads_only = true;
+  }
+  return options;
+}
+
+/// Whether a sweep has every point of an earlier one of the scene, and its figures: it then adds to that one.
+/// @param plan       of the sweep
+/// @param of_scene   what the scene says of sweeps
+/// @param asked      asked_on_command_line of the earlier one
+bool has_points_of(const SweepPlan& plan, bool loads_only, const SweepRequest& of_scene,
+                   const std::vector<std::string>& asked) {
+  try {
+    const auto earlier = options_of(asked);
+    if (loads_only && !earlier.loads_only) return false;
+    std::set<std::vector<std::string>> own;
+    for (const auto& point : plan.points) own.insert(point.settings);
+    const auto points = plan_sweep(requested(earlier, of_scene)).points;
+    return std::all_of(points.begin(), points.end(),
+                       [&](const SweepPoint& point) { return own.count(point.settings) > 0; });
+  } catch (const std::exception&) {  // the scene's own part of it is another by now
+    return false;
+  }
+}
+
+/// The settings of all points, but for --method, which stands for `--set method`.
+std::vector<std::string> settings_of_points(const SweepCommandOptions& options) {
+  auto settings = settings_of_duty(options.settings, false);
+  const auto is_method = [](const std::string& setting) {
+    return setting.substr(0, setting.find_first_of(" =")) == "method";
+  };
+  if (!options.method.empty())
+    settings.erase(std::remove_if(settings.begin(), settings.end(), is_method), settings.end());
+  return settings;
+}
+
 /// What a sweep is about, the same on all ranks.
 struct Sweep {
   TomlNode tree;
   std::vector<std::string> settings;  ///< of all points
   SweepRequest request;
   SweepPlan plan;
+  Variant variant;
   std::filesystem::path directory;
   Scene first;  ///< for what all points have alike
   RequestedAccuracy accuracy;
@@ -158,12 +222,12 @@ struct Sweep {
 
   explicit Sweep(const SweepCommandOptions& options)
       : tree(tree_without_duty(options)),
-        settings(settings_of_duty(options.settings, false)),
+        settings(settings_of_points(options)),
         request(requested(options, read_sweep_request(options.scene, tree))),
-        plan(plan_sweep(request)),
-        directory(options.output.empty()
-                      ? std::filesystem::path("results") / (options.scene.stem().string() + "_sweep")
-                      : options.output) {
+        plan(plan_sweep(request)) {
+    for (const auto& variation : plan.variations)
+      refuse_without_use(!options.method.empty() && is_within(variation.key, "method"), "--method",
+                         "where --vary chooses it");
     try {
       first = read_scene(options.scene, tree, settings);
     } catch (const SceneError&) {
@@ -172,10 +236,22 @@ struct Sweep {
       of_first.insert(of_first.end(), own.begin(), own.end());
       first = read_scene(options.scene, tree, of_first);
     }
+    if (!options.method.empty()) {
+      first.method = requested_method(options.method, first);
+      settings.push_back("method=" + options.method);
+    }
     accuracy = with_default(requested_search(options.tolerance, options.time_limit, first.accuracy));
     loads_only = options.loads_only || first.bodies.empty();
     for (const auto& variation : plan.variations) require_swept(variation.key, request.zones, loads_only);
+    variant = variant_of(options);
+    variant.sweep = asked_on_command_line(options);
+    variant.has_all_of = [this, of_scene = read_sweep_request(options.scene, tree)](const auto& asked) {
+      return has_points_of(plan, loads_only, of_scene, asked);
+    };
+    directory = own_directory(options.output, default_directory(options, "_sweep"), variant);
   }
+  Sweep(const Sweep&) = delete;  // the variant refers to it
+  Sweep& operator=(const Sweep&) = delete;
 
   /// @param at  the directory, as this rank writes to it
   SweepOptions options(const SweepCommandOptions& asked, const std::filesystem::path& at, int n_threads,
@@ -289,12 +365,12 @@ std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep
 
 void carry_out(const SweepCommandOptions& options, std::ostream& out) {
   const Sweep sweep(options);
-  const auto& [tree, settings, request, plan, directory, first, accuracy, loads_only] = sweep;
+  const auto& [tree, settings, request, plan, variant, directory, first, accuracy, loads_only] = sweep;
   StageClock clock(progress_on_stderr(options.verbosity()));
   // It outlives the charts: its end unloads Open MPI's libraries, and nothing is drawn in a process that
   // these have left.
   std::optional<fem::Environment> environment;
-  StagedResults staged(directory, sweep_names());
+  StagedResults staged(directory, sweep_names(), "-o", variant);
   auto rows = run_points(options, sweep, staged.directory(), clock, environment);
   const auto numbers = follow_zones(plan, rows);
   add_zone_figures(rows, numbers);
@@ -377,6 +453,9 @@ void add_sweep_command(CLI::App& app, ChosenCommand& chosen) {
                       "of every mesh that is searched, like \"2 %\" (default: the scene's)");
   command->add_option("--time-limit", options->time_limit,
                       "of every search, like \"60 s\" (default: the scene's)");
+  command->add_option("--method", options->method,
+                      "model of every body: auto, beam, axisymmetric or solid (default: the scene's)");
+  add_force_option(*command, *options);
   command->add_flag("--fresh", options->fresh, "reuse nothing of an earlier sweep");
   command->add_flag("--json", options->json, "print the rows as JSON instead of the table");
   add_threads_option(*command, options->n_threads, chosen);

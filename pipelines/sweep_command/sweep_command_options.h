@@ -16,8 +16,8 @@ struct SweepCommandOptions : SceneOptions {
   int n_points = 0;               ///< 0: the scene's
   long seed = -1;                 ///< negative: the scene's
   std::filesystem::path output;
-  std::string tolerance, time_limit;
-  std::vector<std::string> figures;  ///< to print and draw; none: chosen
+  std::string tolerance, time_limit, method;  ///< empty: the scene's
+  std::vector<std::string> figures;           ///< to print and draw; none: chosen
   int n_threads = all_cores;
   bool loads_only = false, zones = false, fresh = false, json = false;
 };

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/names/nearest_name.h"
 
 namespace pipelines {
 namespace {
@@ -51,6 +52,12 @@ std::string quoted_if_needed(const std::string& text) {
   return std::all_of(text.begin(), text.end(), is_plain) ? text : quoted(text);
 }
 
+/// "; did you mean "shaft.governing"?", or nothing.
+std::string near_figure(const std::string& name, const std::set<std::string>& known) {
+  const auto nearest = nearest_name(name, {known.begin(), known.end()});
+  return nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?";
+}
+
 }  // namespace
 
 bool is_governing(const std::string& figure) {
@@ -76,7 +83,8 @@ std::vector<std::string> shown_figures(const std::vector<std::string>& named,
   }
   for (const auto& name : named)
     if (known.count(name) == 0)
-      throw OptionError("--figure " + name + ": the sweep has no such figure; sweep.csv has their names");
+      throw OptionError("--figure " + name + ": the sweep has no such figure" + near_figure(name, known) +
+                        "; sweep.csv has their names");
   if (!named.empty()) return named;
   if (!governing.empty()) return governing;
   if (forces.empty()) forces = std::move(torques);
@@ -182,6 +190,7 @@ void print_extremes(std::ostream& out, const SweepCommandOptions& options, const
       for (const auto& setting : *all) settings += " --set " + quoted(setting);
     if (!options.loads_only) {
       if (!options.tolerance.empty()) settings += " --tolerance " + quoted(options.tolerance);
+      if (!options.method.empty()) settings += " --method " + options.method;
       if (!options.time_limit.empty()) settings += " --time-limit " + quoted(options.time_limit);
     }
     out << "  millstress " << (options.loads_only ? "loads " : "run ")

@@ -1,6 +1,7 @@
 #include "pipelines/variations/sweep_request.h"
 
 #include "pipelines/common/errors.h"
+#include "pipelines/names/nearest_name.h"
 #include "pipelines/scene/scene_table.h"
 
 namespace pipelines {
@@ -21,9 +22,14 @@ void at_key(SceneTable& table, const std::string& key, const Read& read) {
 }  // namespace
 
 SweepDesign sweep_design(const std::string& text) {
-  for (const auto design : {SweepDesign::grid, SweepDesign::one_at_a_time, SweepDesign::latin_hypercube})
+  std::vector<std::string> names;
+  for (const auto design : {SweepDesign::grid, SweepDesign::one_at_a_time, SweepDesign::latin_hypercube}) {
     if (text == to_string(design)) return design;
-  throw OptionError("--design " + text + ": is no design; " + designs);
+    names.push_back(to_string(design));
+  }
+  const auto nearest = nearest_name(text, names);
+  throw OptionError("--design " + text + ": is no design" +
+                    (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") + "; " + designs);
 }
 
 SweepRequest read_sweep_request(const std::filesystem::path& file, const TomlNode& tree) {

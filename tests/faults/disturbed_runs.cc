@@ -68,10 +68,10 @@ Files results_in(const fs::path& directory) {
 }
 
 void DisturbedRuns::prepare(const std::string& model) {
-  arguments_ = "run next.toml --method " + model + " --tolerance none -q -o ";
+  arguments_ = "run next.toml --method " + model + " --tolerance none --force -q -o ";
   cases::write(directory_ / "earlier.toml", short_bar(1));
   cases::write(directory_ / "next.toml", short_bar(2));
-  const auto first = "run earlier.toml --method " + model + " --tolerance none -q -o ";
+  const auto first = "run earlier.toml --method " + model + " --tolerance none --force -q -o ";
   ASSERT_EQ(run(first + "earlier").exit_code, 0);
   restore();
   ASSERT_EQ(run(arguments_ + "out").exit_code, 0);

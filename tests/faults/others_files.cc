@@ -72,7 +72,7 @@ TEST_F(OthersFiles, NothingBehindALinkIsRemoved) {
   fs::create_directory_symlink("../archive", directory_ / "out/shaft");
   const auto before = cases::contents(directory_ / "archive");
   ASSERT_GT(before.size(), 3u);
-  const auto alone = cases::as_a_user(directory_.path, "run alone.toml -q -o out");
+  const auto alone = cases::as_a_user(directory_.path, "run alone.toml --force -q -o out");
   EXPECT_EQ(alone.exit_code, 0) << alone.err;
   EXPECT_EQ(cases::contents(directory_ / "archive"), before);
   const auto refused = run_next();
@@ -93,7 +93,7 @@ TEST_F(OthersFiles, ADirectoryThatWasSentWritesNothingOutside) {
   const auto complete = directory_ / "out/.results.complete";
   const auto expect_untouched = [&](const std::string& what) {
     for (const std::string command :
-         {"report out", "run next.toml --method beam --tolerance none -q -o out"}) {
+         {"report out", "run next.toml --method beam --tolerance none --force -q -o out"}) {
       const auto outcome = cases::as_a_user(directory_.path, command);
       EXPECT_EQ(outcome.exit_code, 2) << what << command << outcome.err;
       EXPECT_NE(outcome.err.find("move it away"), std::string::npos) << what << command << outcome.err;

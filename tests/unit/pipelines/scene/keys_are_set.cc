@@ -1,6 +1,9 @@
 // Keys that the command line sets stand for what the file says; what cannot be set is refused by its key.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <tuple>
+
 #include "pipelines/common/errors.h"
 #include "pipelines/scene/scene.h"
 #include "pipelines/scene_reader/key_settings.h"
@@ -103,6 +106,91 @@ TEST(KeySettings, SwitchSingleEffects) {
             std::string::npos);
   EXPECT_NE(refusal_of_settings({"effects.spring_dampin=on"}).find("spring_dampin"), std::string::npos);
   EXPECT_NE(refusal_of_settings({"effects.springs=3"}).find("write on or off"), std::string::npos);
+}
+
+/// What went with a body, and the tree that is left.
+std::vector<std::string> told_of(pipelines::TomlNode& root, const std::string& body) {
+  return pipelines::set_keys(root, {body + "=removed"}, "scene.toml");
+}
+
+// Every shipped scene whose machine knows its masses by itself is one of loads alone, without further keys.
+TEST(KeySettings, TakeWhatNeedsABodyAwayWithIt) {
+  const auto scenes = std::filesystem::path(SOURCE_DIR) / "pipelines/scenes";
+  const std::vector<std::tuple<std::string, std::string, Settings>> bodies{
+      {"vibratory_mill.toml", "shaft", {"gravity_shaft", "shaft_inertia"}},
+      {"vibratory_mill_duty.toml", "shaft", {"gravity_shaft", "shaft_inertia"}},
+      {"planetary_mill.toml", "drum", {"drum_spin"}},
+      {"stub_axle.toml", "axle", {"axle_gravity", "axle_transport"}}};
+  for (const auto& [file, body, effects] : bodies) {
+    const auto scene = pipelines::read_scene(scenes / file, {body + "=removed"});
+    EXPECT_EQ(scene.body(body), nullptr) << file;
+    for (const auto& effect : effects) {
+      EXPECT_FALSE(scene.has_effect(effect)) << file << effect;
+      const auto told =
+          "[" + body + "] is removed, and with it the effect \"" + effect + "\", which needs it";
+      EXPECT_EQ(std::count(scene.warnings.begin(), scene.warnings.end(), told), 1) << file << effect;
+    }
+  }
+}
+
+TEST(KeySettings, TakeBearingsBlocksAndSweepsOfABodyAwayWithIt) {
+  auto root = pipelines::parse_toml(R"(effects = ["pull", "own", "shaft_inertia"]
+[machine]
+type = "drive_train"
+[[machine.excitations]]
+name = "pull"
+[shaft]
+bearings = ["left", "right"]
+[[shaft.forces]]
+effect = "own"
+[[shaft.forces]]
+effect = "pull"
+[[bearings]]
+name = "1"
+load = "right"
+[[bearings]]
+name = "2"
+load = "belt"
+[[duty]]
+name = "slow"
+set.effects = { own = "off", pull = "on" }
+[[duty]]
+name = "fast"
+set."effects.shaft_inertia" = "off"
+[sweep]
+vary = ["shaft.material.density = 7800, 7900 kg/m3", "effects.own = on, off", "shafts = 1, 2"]
+)");
+  const auto told = told_of(root, "shaft");
+  EXPECT_EQ(told.size(), 7u) << testing::PrintToString(told);
+  const auto& effects = root.find("effects")->value.items;
+  ASSERT_EQ(effects.size(), 1u);
+  EXPECT_EQ(effects[0].text, "pull");
+  const auto& bearings = root.find("bearings")->value.items;
+  ASSERT_EQ(bearings.size(), 1u);
+  EXPECT_EQ(bearings[0].find("name")->value.text, "2");
+  const auto& blocks = root.find("duty")->value.items;
+  EXPECT_EQ(blocks[0].find("set")->value.find("effects")->value.entries.size(), 1u);
+  EXPECT_EQ(blocks[1].find("set")->value.entries.size(), 0u);
+  ASSERT_EQ(root.find("sweep")->value.find("vary")->value.items.size(), 1u);
+  EXPECT_EQ(root.find("sweep")->value.find("vary")->value.items[0].text, "shafts = 1, 2");
+}
+
+// Ports of a mill's shaft that its kind names.
+TEST(KeySettings, TakeBearingsAtPortsOfTheKindAwayWithTheBody) {
+  auto root = pipelines::parse_toml(
+      "effects = []\n[machine]\ntype = \"vibratory_mill\"\n[shaft]\n"
+      "[[bearings]]\nname = \"1\"\nload = \"main_bearing_1\"\n[[bearings]]\nname = \"2\"\nload = \"R_E\"\n");
+  const auto told = told_of(root, "shaft");
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0], "[shaft] is removed, and with it the bearing \"1\", which needs it");
+}
+
+// What is no body of the machine takes nothing along.
+TEST(KeySettings, ThatRemoveNoBodyTakeNothingElse) {
+  auto root =
+      pipelines::parse_toml("effects = [\"drum_spin\"]\n[machine]\ntype = \"vibratory_mill\"\n[drum]\n");
+  EXPECT_TRUE(told_of(root, "drum").empty());
+  EXPECT_EQ(root.find("effects")->value.items.size(), 1u);
 }
 
 TEST(KeySettings, ThatLeadNowhereAreRefused) {
