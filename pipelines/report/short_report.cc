@@ -57,6 +57,7 @@ std::string model_text(const BodyAnalysis& analysis) {
   text += fmt::format("; {} step{}, {}{}", search.steps.size(), search.steps.size() == 1 ? "" : "s",
                       search.met ? "" : "NOT MET: ", search.ended);
   if (search.tolerance > 0) text += fmt::format(" ({:.3g} % was asked)", 100 * search.tolerance);
+  if (search.time_was_up()) text += fmt::format("; the next step needs about {:.0f} s", search.next_seconds);
   return text;
 }
 

@@ -27,7 +27,9 @@ struct Used {
   std::string brought_by;
 };
 
+/// @param shares  empty where nothing changes
 std::string brought_by(const std::vector<std::string>& effects, const std::vector<double>& shares) {
+  if (shares.empty()) return "";
   return largest_shares(group_shares(effects, shares));
 }
 

@@ -7,6 +7,7 @@
 #include "kinetics/series/bearing_life.h"
 #include "pipelines/life/duty_result.h"
 #include "pipelines/machine_reports/torsion_report.h"
+#include "pipelines/names/name_lists.h"
 #include "pipelines/report_parts/fatigue_report.h"
 #include "pipelines/verdict/findings.h"
 
@@ -69,11 +70,22 @@ std::optional<Finding> judge_static_load(const RunReport& report, std::size_t i)
   return finding;
 }
 
-/// "bearing_1": the first seat of a body that is named after a bearing; empty: none.
-std::string bearing_seat(const RunReport& report) {
-  for (const auto& analysis : report.bodies)
-    for (const auto& port : analysis.mesh.ports)
-      if (port.name.find("bearing") != std::string::npos) return port.name;
+std::vector<std::string> bearing_seats(const BodyAnalysis& analysis) {
+  std::vector<std::string> seats;
+  for (const auto& port : analysis.mesh.ports)
+    if (port.name.find("bearing") != std::string::npos) seats.push_back(port.name);
+  return seats;
+}
+
+/// "bearing_1": the first seat of a body that no entry of the scene rates; empty: none. A quantity or role
+/// stands for all bearings of the machine; of bodies whose seats are named one by one each needs an entry.
+std::string unrated_seat(const RunReport& report) {
+  std::vector<std::string> rated;
+  for (const auto& bearing : report.scene.bearings) rated.push_back(bearing.load);
+  for (const auto& analysis : report.bodies) {
+    const auto seats = bearing_seats(analysis), open = names_without(seats, rated);
+    if (!open.empty() && (rated.empty() || open.size() < seats.size())) return open.front();
+  }
   return "";
 }
 
@@ -85,10 +97,9 @@ std::vector<Finding> judge_bearings(const RunReport& report) {
     findings.push_back(judge_life(report, i));
     if (auto finding = judge_static_load(report, i)) findings.push_back(*std::move(finding));
   }
-  const auto seat = bearing_seat(report);
-  if (findings.empty() && !seat.empty())
-    findings.push_back({"bearings", Judgement::not_judged, "", "no ratings are given",
-                        "[[bearings]] / name = \"bearing\", load = \"" + seat +
+  if (const auto seat = unrated_seat(report); !seat.empty())
+    findings.push_back({"bearings", Judgement::not_judged, seat, "no rating is given",
+                        "[[bearings]] / name = \"" + seat + "\", load = \"" + seat +
                             "\", element = \"ball\", dynamic_rating = \"... kN\"",
                         std::nullopt, std::nullopt});
   return findings;

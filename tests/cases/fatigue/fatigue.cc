@@ -349,7 +349,7 @@ TEST(Fatigue, HaveASizeFactor) {
   const auto page = results_test::bytes(directory / "out/report.html");
   EXPECT_LT(page.find("fatigue strength: R_m 600 MPa"), page.find("afety against"));
   const auto text = results_test::bytes(directory / "out/summary.json");
-  EXPECT_LT(text.find("\"fatigue_strength\""), text.find("safety"));
+  EXPECT_LT(text.find("\"fatigue_strength\""), text.find("\"safety_against"));
   const auto scaled = shaft("size_factor = 0.9\n");
   EXPECT_NE(out.find("R_m 540 MPa (600 MPa by size_factor 0.9)"), std::string::npos) << out;
   EXPECT_NE(out.find("R_m 540 MPa of the part at its size, 600 MPa times size_factor 0.9"), std::string::npos)

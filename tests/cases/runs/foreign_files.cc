@@ -101,7 +101,7 @@ protected:
   /// That the command is refused and leaves the folder as it is.
   void expect_refused(const WritingCommand& command, const std::string& fragment) {
     const auto before = all_in(directory_ / "out");
-    const auto outcome = millstress(directory_.path, command.arguments + "out");
+    const auto outcome = millstress(directory_.path, command.arguments + "out --force");
     EXPECT_EQ(outcome.exit_code, 2) << command.arguments << fragment << outcome.err;
     EXPECT_NE(outcome.err.find("millstress: " + command.option + " out/" + fragment), std::string::npos)
         << command.arguments << fragment << '\n'

@@ -161,8 +161,8 @@ TEST(Sweeps, EffectsMaterialsAndMeshesAreValuesLikeAnyOther) {
         with_edits(shaft_alone(coarse()), {{"instants_per_turn = 24", "instants_per_turn = 96"}}));
   for (const char* vary : {"effects.charge_lag = on, off' --vary 'shaft.material.yield_strength = 250 MPa",
                            "shaft.mesh.sectors = 8, 12", "sampling.instants_per_turn = 100, 96"}) {
-    const auto points =
-        points_of(directory.path, std::string("mill.toml --tolerance none --force -o swept --vary '") + vary + "'");
+    const auto points = points_of(
+        directory.path, std::string("mill.toml --tolerance none --force -o swept --vary '") + vary + "'");
     ASSERT_EQ(points.size(), 2u) << vary;
     for (const auto& point : points) expect_same(point, alone(directory.path, "mill.toml", point), "shaft");
   }
@@ -407,7 +407,8 @@ TEST(Sweeps, JudgeNoFatigue) {
   write(directory / "shaft.toml", small_shaft(fixed_in_space("pull", "middle", "100 N")) +
                                       "[shaft.fatigue]\ntensile_strength = \"590 MPa\"\n");
   std::string err;
-  (void)points_of(directory.path, "shaft.toml --tolerance none --vary 'machine.speed = 500, 600 rpm'", &err);
+  (void)points_of(directory.path, "shaft.toml -v --tolerance none --vary 'machine.speed = 500, 600 rpm'",
+                  &err);
   EXPECT_NE(err.find("  zones "), std::string::npos) << err;
   EXPECT_EQ(err.find("  fatigue "), std::string::npos) << err;
 }

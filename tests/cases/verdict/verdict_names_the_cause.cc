@@ -9,9 +9,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string rated_bearings =
+const std::string left_bearing =
     "[[bearings]]\nname = \"left bearing\"\nload = \"bearing_1\"\nelement = \"ball\"\n"
     "dynamic_rating = \"10 kN\"\nstatic_rating = \"5 kN\"\n";
+const std::string rated_bearings = left_bearing +
+                                   "[[bearings]]\nname = \"right bearing\"\nload = \"bearing_2\"\n"
+                                   "element = \"ball\"\ndynamic_rating = \"10 kN\"\n";
 
 /// A bar of C45+N bent by a force that goes round with it: 102 MPa for 100 N, R_e 340 and R_m 620 MPa at its
 /// size, first natural frequency 146 Hz by the formula of the beam on two supports.
@@ -105,7 +108,9 @@ TEST(Verdict, NamesTheCauseOfAnUnsoundShaft) {
       {"strength missing", replaced(sound_shaft(), steel, "name = \"steel\"\nyield_strength = \"340 MPa\"\n"),
        "shaft", "fatigue", "NOT JUDGED", "", "tensile_strength"},
       {"ratings missing", sound_shaft("100 N", "600 rpm", "natural_frequencies = 1", ""), "bearings",
-       "bearings", "NOT JUDGED", "", "load = \"bearing_1\""},
+       "bearings", "NOT JUDGED", "bearing_1", "load = \"bearing_1\""},
+      {"one rating missing", sound_shaft("100 N", "600 rpm", "natural_frequencies = 1", left_bearing),
+       "bearings", "bearings", "NOT JUDGED", "bearing_2", "load = \"bearing_2\""},
       {"frequencies missing", sound_shaft("100 N", "600 rpm", ""), "shaft", "resonance", "NOT JUDGED", "",
        "natural_frequencies = 3 in [shaft]"},
       {"life is short", sound_shaft("190 N") + "[limits]\nwanted_life = \"1e7 h\"\nyield_safety = 1\n",
