@@ -46,6 +46,7 @@ TEST(Variants, OfARunGoIntoADirectoryOfTheirOwn) {
             std::string::npos);
   EXPECT_FALSE(fs::exists(directory / "results/scene-3"));
   // Another scene of that name.
+  fs::create_directory(directory / "other");
   write(directory / "other/scene.toml", shaft_under("3 kN"));
   const auto other = expect_done(directory.path, "run other/scene.toml --method beam");
   EXPECT_NE(other.err.find("holds results of another scene, scene.toml; this goes to results/scene-3"),
