@@ -53,6 +53,8 @@ struct Nodes {
   /// VTK_QUADRATIC_TRIANGLE; corners counter-clockwise seen from outside.
   std::vector<std::int32_t> faces;
   std::vector<std::int32_t> face_boundary_id;  ///< one per face
+  /// Of nodes that were moved to where a largest stress lies: where they stand in their cells.
+  std::map<std::size_t, std::array<double, 3>> moved_from_m;
 
   CellShape shape() const noexcept { return {kind, degree}; }
   std::size_t nodes_per_cell() const noexcept { return std::size_t(shape().nodes_per_cell()); }

@@ -15,7 +15,11 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// In its cells: a node that was moved along the surface would make slivers of those around it.
 Vector3d position_of_node(const fem::Nodes& nodes, std::size_t node) {
+  if (!nodes.moved_from_m.empty())
+    if (const auto moved = nodes.moved_from_m.find(node); moved != nodes.moved_from_m.end())
+      return Eigen::Map<const Vector3d>(moved->second.data());
   return Vector3d(nodes.xyz_m[3 * node], nodes.xyz_m[3 * node + 1], nodes.xyz_m[3 * node + 2]);
 }
 
@@ -181,7 +185,32 @@ std::vector<std::pair<std::size_t, double>> SurfaceSlopes::weights_of_hexahedra(
   return {slope.begin(), slope.end()};
 }
 
+std::size_t SurfaceSlopes::stand_in(std::size_t node) const {
+  const auto circle = [&](std::size_t of) -> std::array<double, 2> {
+    const Vector3d p = position_of_node(*nodes_, of);
+    return {std::hypot(p[0], p[1]), p[2]};
+  };
+  const auto own = circle(node);
+  constexpr double rounding = 1e-9;  // of the radius
+  for (const auto face : faces_of_[node])
+    for (const auto other : nodes_->face(std::size_t(face))) {
+      const auto of = circle(std::size_t(other));
+      const bool is_beside = std::abs(of[0] - own[0]) + std::abs(of[1] - own[1]) <= rounding * own[0];
+      if (std::size_t(other) != node && is_beside && nodes_->moved_from_m.count(std::size_t(other)) == 0)
+        return std::size_t(other);
+    }
+  return node;
+}
+
 std::vector<std::pair<std::size_t, double>> SurfaceSlopes::inward_weights(std::size_t node) const {
+  if (nodes_->moved_from_m.count(node) > 0)
+    if (const auto beside = stand_in(node); beside != node) {
+      auto weights = inward_weights(beside);
+      double sum = 0;
+      for (const auto& entry : weights) sum += entry.second;
+      weights.emplace_back(beside, -sum);
+      return weights;
+    }
   if (cells_of_[node].empty() || faces_of_[node].empty()) return {};
   const auto outward = outward_normal(node);
   const Vector3d inward = -Eigen::Map<const Vector3d>(outward.data());

@@ -28,13 +28,18 @@ public:
   double related_gradient_per_m(std::size_t node, const std::function<double(std::size_t)>& field) const;
 
   /// df/dn at a node of the surface, n pointing inwards, is the sum of weight (f(other) - f(node)) over its
-  /// neighbours [1/m]; none where no cells or faces are around.
+  /// neighbours [1/m]; none where no cells or faces are around. A node of a body of revolution that was moved
+  /// to the crest between half planes has the stress of that place, and the slope at the next node of its
+  /// circle: the field is not known below it.
   std::vector<std::pair<std::size_t, double>> inward_weights(std::size_t node) const;
 
   /// Of the faces around a node of the surface, outwards, of length one; zero where there are none.
   std::array<double, 3> outward_normal(std::size_t node) const;
 
 private:
+  /// The next node on the circle around the z axis of a node that was moved; the node itself: there is none.
+  std::size_t stand_in(std::size_t node) const;
+
   using Weights = std::map<std::size_t, double>;
   Weights weights_by_cells(std::size_t node, const Eigen::Vector3d& direction) const;
   /// The node of the cells around that lies most nearly inwards and its distance [m], without those beside

@@ -214,8 +214,8 @@ private:
     patch.load(loads_.values.col(instant_of_most));
     Move move;
     move.node = node_of(moved, half_plane);
-    // Along the surface the node stays where it is, at most half a distance of nodes away: in an oblique cell the
-    // slope below the surface, which fatigue asks for, is off by a seventh.
+    // Along the surface the node stays where it is, at most half a distance of nodes away: in an oblique cell
+    // the slope below the surface, which fatigue asks for, is off by a seventh.
     move.position_m = patch.position_m({moved == circle ? start_m : highest.along_m, highest.angle_rad});
     move.stress_Pa = patch.unit_stress_Pa(highest);
     move.displacement_m = patch.unit_displacement_m(highest);
@@ -240,7 +240,9 @@ void apply(const std::vector<Move>& moves, const ChannelHistory& loads, Revolved
   moved.nodes.n = moves.size();
   for (const auto& move : moves) {
     moved.stress_Pa.insert(moved.stress_Pa.end(), move.stress_Pa.begin(), move.stress_Pa.end());
-    std::copy(move.position_m.begin(), move.position_m.end(), &responses.nodes.xyz_m[3 * move.node]);
+    double* const at_m = &responses.nodes.xyz_m[3 * move.node];
+    responses.nodes.moved_from_m.insert({move.node, {at_m[0], at_m[1], at_m[2]}});
+    std::copy(move.position_m.begin(), move.position_m.end(), at_m);
     std::copy(move.stress_Pa.begin(), move.stress_Pa.end(), &responses.stress_Pa[6 * n_channels * move.node]);
     std::copy(move.displacement_m.begin(), move.displacement_m.end(),
               &responses.displacement_m[3 * n_channels * move.node]);

@@ -27,9 +27,10 @@ struct RevolvedResults {
 /// `n_angles`; along the surface by the parabola through three circles, up to the border of what is left out
 /// beside a sharp edge. Position, unit responses, envelope, and the places' values and nodes follow.
 ///
-/// A node moves around the axis by less than half the distance to the next one, and along the surface on to that
-/// border alone: elsewhere it has the stress of a point at most half a distance of nodes away, so that cells stay
-/// straight for gradients. Nodes where two surfaces meet know of the stress around the axis alone. Places inside stay as they are.
+/// A node moves around the axis by less than the distance to the next one, and along the surface on to that
+/// border alone: elsewhere it has the stress of a point at most half a distance of nodes away. Where it stood
+/// is kept for the slopes in its cells (fem::Nodes::moved_from_m). Nodes where two surfaces meet know of the
+/// stress around the axis alone. Places inside stay as they are.
 /// @param n_angles  half planes
 void move_nodes_to_maxima(const ChannelHistory& loads, const meshes::BodyMesh& mesh, int n_angles,
                           RevolvedResults results);
