@@ -44,7 +44,8 @@ snapshots = 0
 pictures = false
 )");
   const auto peak_of = [&](const std::string& arguments) {
-    const auto run = as_a_user(directory.path, "run shock.toml --method axisymmetric --force -o r " + arguments);
+    const auto run =
+        as_a_user(directory.path, "run shock.toml --method axisymmetric --force -o r " + arguments);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return summary(directory / "r")["bodies"]["shaft"];
   };
@@ -322,7 +323,8 @@ TEST(BetweenInstants, SamplesBoundASquareWave) {
   write(directory / "table.toml", fatigued_under(R"(files = [{ effect = "teeth", file = "square.csv" }])"));
   for (const int n : {120, 720}) {
     write_square(n);
-    const auto run = as_a_user(directory.path, "run table.toml --method axisymmetric --tolerance none --force -o r");
+    const auto run =
+        as_a_user(directory.path, "run table.toml --method axisymmetric --tolerance none --force -o r");
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto peak = summary(directory / "r")["bodies"]["shaft"]["peak_von_mises"];
     EXPECT_LT(peak["error"]["time_sampling"].get<double>(), 0.1 * peak["value"].get<double>()) << n;
