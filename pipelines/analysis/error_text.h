@@ -42,8 +42,8 @@ std::string not_known_well(const GoverningStress& stress, const Search& search);
 /// @param search  likewise
 std::string remedy_of_error(const ErrorBudget& errors, const Search& search);
 
-/// "the stress rises towards the sharp inner edge a/b, of which 1.8 mm are left out, ...": where the peak leads
-/// and lies at the border of what is left out; else empty. With what would give a stress to judge.
+/// "the stress rises towards the sharp inner edge a/b, of which 1.8 mm are left out, ...": where the peak
+/// leads and lies at the border of what is left out; else empty. With what would give a stress to judge.
 std::string rises_towards_edge(const BodyAnalysis& analysis);
 
 /// "shaft, step 2: 86865 unknowns, 104.9 MPa known to 2.5 %, 4.3 s": the last step, as it is told meanwhile.

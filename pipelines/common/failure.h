@@ -6,7 +6,13 @@
 
 namespace pipelines {
 
-enum ExitCode { done = 0, scene_is_wrong = 2, mesh_or_solve_failed = 3, tolerance_not_met = 4, verdict_not_ok = 5 };
+enum ExitCode {
+  done = 0,
+  scene_is_wrong = 2,
+  mesh_or_solve_failed = 3,
+  tolerance_not_met = 4,
+  verdict_not_ok = 5
+};
 
 /// A tolerance or time limit that a run did not meet; its results are kept.
 class ToleranceNotMet : public std::runtime_error {

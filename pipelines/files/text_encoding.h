@@ -12,8 +12,8 @@ struct DecodedText {
   std::string refusal;   ///< why it is no text, with the remedy; empty otherwise
 };
 
-/// Bytes that are no UTF-8 are taken for Windows-1252, of which Latin-1 is a part: no logger says which of the
-/// encodings with one byte it uses, and titles and units look right in this one or plainly wrong.
+/// Bytes that are no UTF-8 are taken for Windows-1252, of which Latin-1 is a part: no logger says which of
+/// the encodings with one byte it uses, and titles and units look right in this one or plainly wrong.
 DecodedText decode_text(std::string bytes);
 
 /// "UTF-16 LE", "UTF-16 BE", "UTF-32 LE" or "UTF-32 BE" by the byte order mark or, without one, where every

@@ -14,8 +14,8 @@ struct OddCharacter {
   std::string remedy;    ///< "write an ordinary space"
 };
 
-/// The first one: spaces that are not U+0020, marks without width, typographic quotation marks, dashes and the
-/// minus sign of mathematics.
+/// The first one: spaces that are not U+0020, marks without width, typographic quotation marks, dashes and
+/// the minus sign of mathematics.
 /// @param text  UTF-8
 std::optional<OddCharacter> odd_character_in(std::string_view text);
 

@@ -1,10 +1,10 @@
 /// Quantities with units, converted once: text from a scene in, SI numbers out.
 ///
-/// The unit database is udunits2, with "deg", "rev", "Nm" and "Nmm" added. Dimensions are compared strictly: udunits
-/// itself takes the radian as 1 and a unit as convertible into its reciprocal, both are refused here. Angular
-/// speeds: "1450 rpm", "24.2 Hz" and "151.8 rad/s" are understood; hertz (with any prefix) counts turns per
-/// second and is multiplied by 2 pi. "24.2 1/s", "1450 min-1" do not say whether they count turns or radians:
-/// refused.
+/// The unit database is udunits2, with "deg", "rev", "Nm" and "Nmm" added. Dimensions are compared strictly:
+/// udunits itself takes the radian as 1 and a unit as convertible into its reciprocal, both are refused here.
+/// Angular speeds: "1450 rpm", "24.2 Hz" and "151.8 rad/s" are understood; hertz (with any prefix) counts
+/// turns per second and is multiplied by 2 pi. "24.2 1/s", "1450 min-1" do not say whether they count turns
+/// or radians: refused.
 #pragma once
 
 #include <stdexcept>

@@ -205,6 +205,10 @@ void add_verdict(HtmlPage& page, const Json& summary) {
       rows.push_back({name, finding.at("judgement").get<std::string>(),
                       finding.at("criterion").get<std::string>(), finding.at("figure").get<std::string>(),
                       finding.at("place").get<std::string>(), finding.at("remedy").get<std::string>()});
+  std::string left_out;
+  for (const auto& what : verdict.value("left_out", Json::array()))
+    left_out += (left_out.empty() ? "" : ", ") + what.get<std::string>();
+  if (!left_out.empty()) page.paragraph("Not weighed, by the scene: " + left_out + ".");
   page.table({"", "verdict", "criterion", "figure and limit", "weakest place", "what to do"}, rows);
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <ostream>
 #include <vector>
 
@@ -144,6 +146,7 @@ void print_short_zones(std::ostream& out, const RunReport& report, const BodyAna
 struct LifeRow {
   std::string place;
   double range_Pa = 0, error_share = 0;
+  std::optional<double> margin;  ///< against the wanted life; none: nothing changes
   std::string life;
   int n_alike = 1;
 };
@@ -158,17 +161,23 @@ void add_row(std::vector<LifeRow>& rows, LifeRow row) {
     ++alike->n_alike;
 }
 
+/// Welds and surface alike, the least margin first.
 std::vector<LifeRow> life_rows(const BodyAnalysis& analysis) {
   std::vector<LifeRow> rows;
   for (const auto& weld : analysis.fatigue->welds)
-    add_row(rows, {weld.name + " (weld toe)", weld.range_Pa, weld.error_share,
+    add_row(rows, {weld.name + " (weld toe)", weld.range_Pa, weld.error_share, weld.life_safety,
                    life_text(weld.life_s, weld.certainty)});
   for (const auto& place : analysis.fatigue->places) {
     auto life = life_text(place.life_s, place.certainty);
     if (!place.life_s && place.life_safety)
       life += fmt::format(", factor {} left", safety_text(*place.life_safety, place.error_share));
-    add_row(rows, {place.feature, 2 * place.cycle.amplitude_Pa, place.error_share, std::move(life)});
+    add_row(rows, {place.feature, 2 * place.cycle.amplitude_Pa, place.error_share, place.life_safety,
+                   std::move(life)});
   }
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    return a.margin.value_or(never) < b.margin.value_or(never);
+  });
   return rows;
 }
 

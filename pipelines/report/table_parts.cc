@@ -39,8 +39,9 @@ std::string window_of(const RunReport& report) {
 
 void print_title_and_verdict(std::ostream& out, const RunReport& report) {
   const auto verdict = judge(report);
-  out << fmt::format("\n{}: {}\n  {} ({}), {}\n", report.scene.title, headline(verdict), report.loads.machine,
-                     report.loads.convention, window_of(report));
+  out << fmt::format("\n{}: {}\n  {} ({}), {}{}\n", report.scene.title, headline(verdict),
+                     report.loads.machine, report.loads.convention, window_of(report),
+                     left_out_text(verdict));
   for (const auto& setting : report.scene.settings) out << "  set on the command line: " << setting << '\n';
   for (const auto& samples : samples_read(report.scene.machine, report.scene.sampling))
     out << "  read " << samples.text() << '\n';

@@ -98,7 +98,7 @@ struct Scene {
   std::optional<kinetics::RunUp> run_up;  ///< of a vibratory mill, instead of steady running
   bool drum_axes = false;  ///< of a planetary mill: the trunnions' load also in axes that turn with the drum
   std::vector<BearingScene> bearings;
-  LimitsScene limits;                     ///< what the verdict asks for
+  LimitsScene limits;                 ///< what the verdict asks for
   std::vector<DutyBlock> duty;        ///< none: the scene's own running alone, for ever
   Method method = Method::automatic;  ///< the model of every body
   RequestedAccuracy accuracy;         ///< how well the stresses are to be known, and in what time

@@ -71,8 +71,7 @@ BodyScene read_body(SceneTable& table, const BodyKind& kind, const Scene& scene,
   read_solver(table, body);
   read_natural_frequencies(table, body);
   read_fatigue(table, strength, bool(scene.run_up), body, findings);
-  if (body.fatigue && !body.fatigue->wanted_life_s)
-    body.fatigue->wanted_life_s = scene.limits.wanted_life_s;
+  if (body.fatigue && !body.fatigue->wanted_life_s) body.fatigue->wanted_life_s = scene.limits.wanted_life_s;
   table.finish();
   return body;
 }

@@ -42,9 +42,11 @@ GoverningSize size_of(const ShaftShape& shaft) {
 
 GoverningSize size_of(const ChamberShape& chamber) {
   const auto& g = chamber.geometry;
-  const double size_m =
-      std::max({g.tube.wall_m, g.flanges.thickness_m, g.webs.thickness_m, g.lugs.thickness_m});
-  return {size_m, fmt::format("thickest plate {:.4g} mm", 1e3 * size_m)};
+  const double housing_m = g.housing.outer_radius_m - g.housing.bore_radius_m,
+               pad_m = std::min({g.pads.size_x_m, g.pads.size_y_m, g.pads.size_z_m});
+  const double size_m = std::max(
+      {g.tube.wall_m, g.flanges.thickness_m, g.webs.thickness_m, g.lugs.thickness_m, housing_m, pad_m});
+  return {size_m, fmt::format("thickest member {:.4g} mm", 1e3 * size_m)};
 }
 
 GoverningSize size_of(const meshes::Import&) {

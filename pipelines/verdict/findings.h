@@ -32,6 +32,7 @@ Judgement weigh(double margin, const std::optional<double>& least);
 bool is_worse(const Finding& a, const Finding& b);
 
 /// What settles a figure whose error leaves it open.
-std::string remedy_of_open(const BodyAnalysis& analysis);
+/// @param error_share  whole error of the stress that the figure follows from; infinite: not known
+std::string remedy_of_open(const BodyAnalysis& analysis, double error_share);
 
 }  // namespace pipelines

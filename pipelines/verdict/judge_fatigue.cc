@@ -108,7 +108,7 @@ Finding finding_of(const BodyAnalysis& analysis, const Used& used) {
   if (finding.judgement == Judgement::not_ok)
     finding.remedy = remedy_of_life(used, std::min(1.0, finding.least_margin.value_or(*finding.margin)));
   else if (finding.judgement == Judgement::not_judged)
-    finding.remedy = remedy_of_open(analysis);
+    finding.remedy = remedy_of_open(analysis, used.error_share);
   return finding;
 }
 

@@ -43,8 +43,10 @@ std::vector<Stressed> in_blocks(const RunReport& report, const BodyAnalysis& ana
 std::vector<Stressed> all_stresses(const RunReport& report, const BodyAnalysis& analysis) {
   std::vector<Stressed> all{in_running(analysis)};
   for (auto& stress : in_blocks(report, analysis)) all.push_back(std::move(stress));
+  // A start is known no better than running: what patterns of pressure leave open is the same.
   if (analysis.start_up)
-    all.push_back({analysis.start_up->von_mises.largest, analysis.start_up->error_share,
+    all.push_back({analysis.start_up->von_mises.largest,
+                   std::max(analysis.start_up->error_share, all.front().error_share),
                    analysis.start_up->feature, " in the start"});
   return all;
 }
@@ -73,14 +75,22 @@ Finding finding_of(const RunReport& report, const BodyAnalysis& analysis, const 
   if (finding.judgement == Judgement::not_ok)
     finding.remedy = remedy_of_yield(yield_Pa, finding.least_margin.value_or(*finding.margin));
   else if (finding.judgement == Judgement::not_judged)
-    finding.remedy = remedy_of_open(analysis);
+    finding.remedy = remedy_of_open(analysis, stress.error_share);
   return finding;
 }
 
 }  // namespace
 
-std::string remedy_of_open(const BodyAnalysis& analysis) {
-  return "its error leaves it open: " + remedy_of_error(governing_stress(analysis).errors, analysis.search);
+std::string remedy_of_open(const BodyAnalysis& analysis, double error_share) {
+  constexpr double same = 1.5;
+  const auto running = in_running(analysis);
+  const auto begin = std::isfinite(error_share)
+                         ? fmt::format("its error of {:.2g} % leaves it open: ", 100 * error_share)
+                         : std::string("its error is not known: ");
+  if (error_share > same * running.error_share)
+    return begin +
+           "the place is known less well than what governs; a smaller --tolerance, or a finer mesh there";
+  return begin + remedy_of_error(governing_stress(analysis).errors, analysis.search);
 }
 
 Finding judge_yield(const RunReport& report, const BodyAnalysis& analysis) {

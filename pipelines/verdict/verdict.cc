@@ -21,6 +21,9 @@ PartVerdict judge_body(const RunReport& report, const BodyAnalysis& analysis) {
   add(part, report, judge_surface(report, analysis));
   add(part, report, judge_welds(report, analysis));
   add(part, report, judge_resonance(report, analysis));
+  if (part.findings.empty())
+    add(part, report,
+        Finding{"nothing", Judgement::not_judged, "", "the scene leaves all criteria out", "", {}, {}});
   return part;
 }
 
@@ -50,6 +53,9 @@ Verdict judge(const RunReport& report) {
   PartVerdict bearings{"bearings", Judgement::ok, {}}, train{"drive train", Judgement::ok, {}};
   for (auto& finding : judge_bearings(report)) add(bearings, report, std::move(finding));
   add(train, report, judge_torsion(report));
+  verdict.left_out = report.scene.limits.left_out;
+  for (const auto& analysis : report.bodies)
+    if (analysis.scene.fatigue_off) verdict.left_out.push_back("fatigue of " + analysis.scene.name);
   for (auto* part : {&bearings, &train})
     if (!part->findings.empty()) verdict.parts.push_back(std::move(*part));
   verdict.judgement = verdict.parts.empty() ? Judgement::not_judged : Judgement::ok;

@@ -41,6 +41,7 @@ struct PartVerdict {
 struct Verdict {
   Judgement judgement = Judgement::ok;  ///< the worst of the parts; not judged where there is none
   std::vector<PartVerdict> parts;
+  std::vector<std::string> left_out;  ///< what the scene does not ask for: "resonance", "fatigue of shaft"
 };
 
 /// @param report  of a run, with all that its scene asks for

@@ -6,6 +6,7 @@
 #include <ostream>
 #include <vector>
 
+#include "pipelines/names/nearest_name.h"
 #include "pipelines/verdict/findings.h"
 
 namespace pipelines {
@@ -50,6 +51,10 @@ std::string headline(const Verdict& verdict) {
   return text + ": " + part->name + ", " + reason(*worst_first(*part).front());
 }
 
+std::string left_out_text(const Verdict& verdict) {
+  return verdict.left_out.empty() ? "" : "; not weighed: " + listed(verdict.left_out);
+}
+
 void print_verdict(std::ostream& out, const Verdict& verdict) {
   for (const auto& part : verdict.parts) {
     bool is_first = true;
@@ -68,6 +73,7 @@ void print_verdict(std::ostream& out, const Verdict& verdict) {
 summary::Json verdict_json(const Verdict& verdict) {
   auto json = summary::object({{"judgement", to_string(verdict.judgement)},
                                {"headline", headline(verdict)},
+                               {"left_out", verdict.left_out},
                                {"parts", summary::Json::object()}});
   for (const auto& part : verdict.parts) {
     auto& entry = json["parts"][part.name];

@@ -18,7 +18,10 @@ std::string headline(const PartVerdict& part);
 /// A line for each criterion of each part, the worst first, with what to do below what does not hold.
 void print_verdict(std::ostream& out, const Verdict& verdict);
 
-/// {"judgement", "headline", "parts": {name: {"judgement", "findings": [...]}}}
+/// "; not weighed: resonance": what the scene leaves out, behind other words; empty: nothing.
+std::string left_out_text(const Verdict& verdict);
+
+/// {"judgement", "headline", "left_out", "parts": {name: {"judgement", "findings": [...]}}}
 summary::Json verdict_json(const Verdict& verdict);
 
 }  // namespace pipelines

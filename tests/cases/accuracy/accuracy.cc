@@ -99,9 +99,9 @@ TEST(Accuracy, SectionsThatAgreeByChanceAreNotTrusted) {
   const auto study_of = millstress(directory.path, "accuracy " + scene + "--time-limit '8 s'");
   ASSERT_EQ(study_of.exit_code, 0) << study_of.err;
   const auto models = first_column(directory / "out/accuracy/shaft.csv");
-  const auto run =
-      millstress(directory.path,
-                 "run " + scene + "--method axisymmetric --tolerance '0.2 %' --force --set results.pictures=false");
+  const auto run = millstress(
+      directory.path,
+      "run " + scene + "--method axisymmetric --tolerance '0.2 %' --force --set results.pictures=false");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const double true_Pa = summary(directory / "out")["bodies"]["shaft"]["peak_von_mises"]["value"];
   const Study study(directory / "out/accuracy/accuracy.h5", models.size());

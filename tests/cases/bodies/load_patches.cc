@@ -39,8 +39,8 @@ TEST(LoadPatches, EntryIsTheDifferenceOfRunsWithOtherContacts) {
   const double entry = here["error"]["load_patches"].get<double>();
   EXPECT_GE(entry, wanted * (1 - 1e-6));
   // The narrow pattern has most above the fourth; their bound is at most ten times what they bring.
-  const double above_Pa = std::abs(peak_of(directory.path, "60", 12)["value"].get<double>() -
-                                   narrow["value"].get<double>());
+  const double above_Pa =
+      std::abs(peak_of(directory.path, "60", 12)["value"].get<double>() - narrow["value"].get<double>());
   EXPECT_LE(entry, wanted + 10 * above_Pa);
   const auto method = here["error"]["methods"]["load_patches"].get<std::string>();
   EXPECT_NE(method.find("120 to 200 degrees in all: from "), std::string::npos) << method;

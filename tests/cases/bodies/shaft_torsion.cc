@@ -154,8 +154,8 @@ TEST(ShaftTorsion, WarnsOnce) {
                      "[machine.transient]\nduration = \"24 ms\"\nstep = \"6 ms\"\n"),
       &out);
   ASSERT_FALSE(json.is_null());
-  for (const std::string text : {"the transient's largest torque of", "it is amplified up to",
-                                 "constant torques do not balance"}) {
+  for (const std::string text :
+       {"the transient's largest torque of", "it is amplified up to", "constant torques do not balance"}) {
     const auto first = out.find(text);
     ASSERT_NE(first, std::string::npos) << text << '\n' << out;
     EXPECT_EQ(out.find(text, first + 1), std::string::npos) << out;

@@ -19,12 +19,12 @@ std::string judged(const std::string& mesh = "") {
 
 }  // namespace
 
-// The related gradient of the normal stress at a shoulder in bending is 2.3 (1 + phi) / r by the tables of FKM and
-// DIN 743 (d/D = 2/3), phi 0.05, for the small fillet of a thick shaft, too. Von Mises stress falls faster: below a
-// free surface the normal stress across it rises by sigma / r, which with a hoop stress of nu sigma brings
-// (1 + nu) / (2 (1 - nu + nu^2)) / r = 0.82 / r. What lies between is right; coarse cells, here a tenth of a
-// millimetre, tell a tenth less than the table. Turns red: a plane or quadratic in x, y, z through the nodes around,
-// 2.8 and 3.2 instead of 4.6/mm.
+// The related gradient of the normal stress at a shoulder in bending is 2.3 (1 + phi) / r by the tables of
+// FKM and DIN 743 (d/D = 2/3), phi 0.05, for the small fillet of a thick shaft, too. Von Mises stress falls
+// faster: below a free surface the normal stress across it rises by sigma / r, which with a hoop stress of nu
+// sigma brings (1 + nu) / (2 (1 - nu + nu^2)) / r = 0.82 / r. What lies between is right; coarse cells, here
+// a tenth of a millimetre, tell a tenth less than the table. Turns red: a plane or quadratic in x, y, z
+// through the nodes around, 2.8 and 3.2 instead of 4.6/mm.
 TEST(Fatigue, SupportOfASmallFilletIsThatOfItsRadius) {
   const results_test::Directory directory;
   const double fillet_m = 0.5e-3;

@@ -155,8 +155,8 @@ TEST(UnchangedRuns, AnotherMethodComputesAnew) {
   EXPECT_TRUE(run("axisymmetric"));
 }
 
-// Of every file that the run wrote one byte is changed: it is this program's no more, and stops the run. Gone,
-// it is made anew; without the manifest none of the others is this program's.
+// Of every file that the run wrote one byte is changed: it is this program's no more, and stops the run.
+// Gone, it is made anew; without the manifest none of the others is this program's.
 TEST(UnchangedRuns, AnyChangeOfAResultIsRefusedAndWhatIsGoneIsMadeAnew) {
   const results_test::Directory directory;
   write(directory / "scene.toml", beam());

@@ -29,8 +29,7 @@ Outcome expect_done(const fs::path& directory, const std::string& arguments) {
 TEST(Variants, OfARunGoIntoADirectoryOfTheirOwn) {
   const results_test::Directory directory;
   write(directory / "scene.toml", shaft_under("1 kN"));
-  const std::string run = "run scene.toml --method beam",
-                    more = " --set 'machine.constants[1].value=2 kN'";
+  const std::string run = "run scene.toml --method beam", more = " --set 'machine.constants[1].value=2 kN'";
   EXPECT_EQ(expect_done(directory.path, run).err, "");
   const auto first = contents(directory / "results/scene");
   const auto second = expect_done(directory.path, run + more);

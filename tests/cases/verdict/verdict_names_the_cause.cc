@@ -38,6 +38,9 @@ Json verdict_of(const fs::path& directory, const std::string& scene, const std::
   const auto verdict = summary(directory / "out").at("verdict");
   EXPECT_NE(outcome.out.find(": " + verdict.at("headline").get<std::string>()), std::string::npos)
       << "the terminal says the same, first";
+  for (const auto& what : verdict.at("left_out"))
+    EXPECT_NE(outcome.out.find(what.get<std::string>(), outcome.out.find("; not weighed: ")),
+              std::string::npos);
   return verdict;
 }
 
@@ -127,7 +130,7 @@ TEST(Verdict, IsOpenWhereTheErrorReachesTheLimit) {
   expect(directory.path,
          {"by the beam",
           sound_shaft("215 N", "600 rpm", "") + "[limits]\nleft_out = [\"fatigue\", \"resonance\"]\n",
-          "shaft", "yield", "NOT JUDGED", "", "its error leaves it open"},
+          "shaft", "yield", "NOT JUDGED", "", "leaves it open"},
          "--method beam");
 }
 
@@ -139,6 +142,12 @@ TEST(Verdict, DoesNotWeighWhatTheSceneLeavesOut) {
   EXPECT_EQ(verdict["judgement"], "OK") << verdict.dump(1);
   EXPECT_TRUE(finding(verdict, "shaft", "resonance").is_null());
   EXPECT_FALSE(verdict["parts"].contains("bearings"));
+  EXPECT_EQ(verdict["left_out"], Json({"bearings", "resonance"})) << "and it is told";
+  const auto nothing =
+      verdict_of(directory.path, sound_shaft("100 N", "600 rpm", "fatigue = \"off\"", "") +
+                                     "[limits]\nleft_out = [\"yield\", \"bearings\", \"resonance\"]\n");
+  EXPECT_EQ(nothing["judgement"], "NOT JUDGED") << "who weighs nothing finds nothing sound";
+  EXPECT_EQ(nothing["left_out"].back(), "fatigue of shaft");
 }
 
 // NOT OK is exit code 5 for who asks, with the results kept; an unchanged run says the same again.

@@ -6,9 +6,9 @@
 
 #include "pipelines/channels/load_files.h"
 #include "pipelines/files/hdf5_file.h"
-#include "pipelines/tables/table_file.h"
 #include "pipelines/loads/load_stage.h"
 #include "pipelines/scene/scene.h"
+#include "pipelines/tables/table_file.h"
 #include "tests/fuzz/kinds/samples.h"
 #include "tests/fuzz/kinds/scene_cases.h"
 #include "tests/fuzz/verdicts.h"

@@ -52,7 +52,7 @@ TEST(SceneChamber, HasTheLaboratorySizes) {
   EXPECT_EQ(mesh.size_m, 0);
 
   EXPECT_EQ(body->material_name, "S235");
-  expect_same_number(body->yield_strength_Pa, 235e6);
+  expect_same_number(body->yield_strength_Pa, 225e6);
   EXPECT_EQ(body->difference_port, "covers");
   EXPECT_EQ(std::get<pipelines::ChamberOptions>(body->options).pitch_guide, pipelines::PitchGuide::body);
   EXPECT_FALSE(std::get<pipelines::ChamberOptions>(body->options).elastic_feet);

@@ -1,3 +1,4 @@
+/// The table with all figures, as -v prints it.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -7,19 +8,14 @@
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
 #include "pipelines/body_stages/shaft_torsion.h"
-#include "pipelines/channels/load_figures.h"
 #include "pipelines/common/constants.h"
-#include "pipelines/common/statistics.h"
-#include "pipelines/machines/load_table_reader.h"
 #include "pipelines/report/summary.h"
 #include "pipelines/report/table_parts.h"
 #include "pipelines/report_parts/duty_report.h"
 #include "pipelines/report_parts/fatigue_assumptions.h"
 #include "pipelines/report_parts/fatigue_report.h"
-#include "pipelines/report_parts/moment.h"
 #include "pipelines/report_parts/shaft_torsion_report.h"
 #include "pipelines/report_parts/zone_text.h"
-#include "pipelines/scene/machine_kind.h"
 
 namespace pipelines {
 namespace {
