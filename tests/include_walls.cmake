@@ -63,9 +63,9 @@ set(rooms_fem values common mesh triangulation ranks matrices operators loads st
 set(rooms_kinetics values series vibratory_effects vibratory planetary_effects planetary torsion_chain torsion table)
 set(rooms_meshes values gmsh spacing checks shaft_layout shaft chamber solids keyed_shaft imported)
 set(rooms_pipelines
-    common names disk files exports fatigue materials scene_values scene scene_bodies scene_reader tables machines responses channels loads bodies
+    common names disk files fields exports fatigue materials scene_values scene scene_bodies scene_reader tables machines responses channels loads bodies
     kernels superposition between_instants estimates body_figures analysis body_stages life calculix cheap_models
-    report_parts machine_reports verdict report effects refinement search accuracy result_files variations sweep drawing pictures
+    result_fields report_parts machine_reports verdict report effects refinement search accuracy result_files variations sweep drawing pictures
     command_options sweep_command check_command commands)
 foreach(folder fem kinetics meshes pipelines)
   set(above ${rooms_${folder}})

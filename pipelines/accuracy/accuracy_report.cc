@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "pipelines/common/version.h"
+#include "pipelines/fields/shown_unit.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/files/hdf5_file.h"
@@ -190,7 +191,7 @@ void print_accuracy(std::ostream& out, const AccuracyStudy& study) {
 }
 
 void write_accuracy_csv(const std::filesystem::path& file, const AccuracyStudy& study) {
-  write_csv(file, columns(study));
+  write_csv(file, in_shown_units(columns(study)));
 }
 
 void write_accuracy_h5(const std::filesystem::path& file, const std::vector<AccuracyStudy>& studies) {

@@ -13,6 +13,7 @@
 #include "pipelines/cheap_models/described_body.h"
 #include "pipelines/common/refusal_of.h"
 #include "pipelines/estimates/fineness.h"
+#include "pipelines/loads/load_stage.h"
 #include "pipelines/refinement/refinement.h"
 #include "pipelines/refinement/second_model.h"
 #include "pipelines/scene_reader/why_not.h"
@@ -211,6 +212,20 @@ RunForecast forecast_run(const Scene& scene, const std::vector<std::vector<Model
   run.seconds += solves_s + pictures_s;
   run.gigabytes += largest_gigabytes;
   return run;
+}
+
+double expected_seconds(const Scene& scene) {
+  constexpr std::size_t usual_channels = 32;
+  const auto springs = springs_of(scene);
+  const auto n_instants = std::size_t(scene.sampling.turns) * std::size_t(scene.sampling.instants_per_turn);
+  const auto calibration = read_calibration(calibration_file());
+  std::vector<std::vector<ModelForecast>> ladders;
+  for (const auto& body : scene.bodies) {
+    if (!can_be_refined(body) || !has_known_ports(body)) return 0;
+    ladders.push_back(forecast_ladder(body, describe_body(body, springs),
+                                      {usual_channels, n_instants, springs}, calibration));
+  }
+  return forecast_run(scene, ladders).seconds;
 }
 
 void learn_from(const SceneRun& run) {

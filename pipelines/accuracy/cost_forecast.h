@@ -58,6 +58,10 @@ struct RunForecast {
 /// as the shipped scenes' searches are (README.md): within a factor of three.
 RunForecast forecast_run(const Scene& scene, const std::vector<std::vector<ModelForecast>>& ladders);
 
+/// The same before anything is distributed, for a progress bar: of as many unit loads as a shaft or a chamber
+/// has. 0 where a mesh alone tells what a body is.
+double expected_seconds(const Scene& scene);
+
 /// What a run tells about this machine's speed goes into the calibration.
 void learn_from(const SceneRun& run);
 

@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include "pipelines/accuracy/accuracy_report.h"
+#include "pipelines/fields/shown_unit.h"
 #include "pipelines/files/csv.h"
 
 namespace pipelines {
@@ -41,10 +42,10 @@ void write_grid_csv(const std::filesystem::path& file, const GridStudy& study) {
     sizes.push_back(mesh.size_m);
     values.push_back(mesh.value_Pa);
   }
-  write_csv(file, {{"mesh", "", meshes},
-                   {"unknowns", "1", unknowns},
-                   {"cell_size", "m", sizes},
-                   {"value", "Pa", values}});
+  write_csv(file, in_shown_units({{"mesh", "", meshes},
+                                  {"unknowns", "1", unknowns},
+                                  {"cell_size", "m", sizes},
+                                  {"value", "Pa", values}}));
 }
 
 }  // namespace pipelines

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/fields/shown_unit.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/files/hdf5_file.h"
@@ -128,7 +129,7 @@ void write_loads_h5(const std::filesystem::path& path, const kinetics::LoadHisto
 }
 
 bool is_loads_file(const std::filesystem::path& path) {
-  const std::string titles = "time [s],phi [rad],speed [rad/s],acceleration [rad/s2]";
+  const std::string titles = "time [s],phi [deg],speed [rad/s],acceleration [rad/s2]";
   std::string start(titles.size(), '\0');
   std::ifstream(path, std::ios::binary).read(start.data(), std::streamsize(start.size()));
   if (start == titles) return true;
@@ -146,7 +147,7 @@ void write_loads_csv(const std::filesystem::path& path, const kinetics::LoadHist
   for (const auto* body : bodies) check_channels(*body, loads.n_instants());
   std::vector<CsvColumn> columns;
   for (auto& series : series_of(loads, bodies))
-    columns.push_back({series.title, series.label.unit, std::move(series.values)});
+    columns.push_back(in_shown_unit({series.title, series.label.unit, std::move(series.values)}));
   write_csv(path, columns, n_threads);
 }
 

@@ -7,6 +7,7 @@
 #include "kinetics/series/load_spectrum.h"
 #include "pipelines/channels/load_figures.h"
 #include "pipelines/common/constants.h"
+#include "pipelines/fields/shown_unit.h"
 #include "pipelines/files/csv.h"
 
 namespace pipelines {
@@ -35,7 +36,8 @@ std::vector<StatisticsSeries> series_of(const kinetics::LoadHistory& loads) {
   return all;
 }
 
-/// A table that grows row by row: the first columns say which series.
+/// A table that grows row by row: the first columns say which series, and its unit as people read it, in
+/// which values are.
 struct Rows {
   std::vector<std::string> name, unit;
   std::vector<std::vector<double>> numbers;
@@ -43,13 +45,14 @@ struct Rows {
   explicit Rows(std::size_t n) : numbers(n) {}
   void add(const StatisticsSeries& series, const std::vector<double>& values) {
     name.push_back(series.name);
-    unit.push_back(series.unit);
+    unit.push_back(shown_unit(series.unit).unit);
     for (std::size_t i = 0; i < values.size(); ++i) numbers[i].push_back(values[i]);
   }
   void write(const path& file, const std::vector<std::string>& titles,
              const std::vector<std::string>& units) {
     std::vector<CsvColumn> columns{{"name", "", name}, {"unit", "", unit}};
-    for (std::size_t i = 0; i < titles.size(); ++i) columns.push_back({titles[i], units[i], numbers[i]});
+    for (std::size_t i = 0; i < titles.size(); ++i)
+      columns.push_back(in_shown_unit({titles[i], units[i], numbers[i]}));
     write_csv(file, columns);
   }
 };
@@ -61,7 +64,9 @@ void write_extremes(const path& file, const std::vector<StatisticsSeries>& all,
     auto of = figure_of(series.name, series.unit, series.values, loads.time_s);
     take_course(course, of);
     const auto& s = of.statistics;
-    rows.add(series, {s.max, s.min, s.mean, s.rms, of.time_of_max_s, of.time_of_min_s});
+    const auto unit = shown_unit(series.unit);
+    rows.add(series, {unit.value(s.max), unit.value(s.min), unit.value(s.mean), unit.value(s.rms),
+                      of.time_of_max_s, of.time_of_min_s});
   }
   rows.write(file, {"max", "min", "mean", "rms", "time_of_max", "time_of_min"}, {"", "", "", "", "s", "s"});
 }
@@ -81,10 +86,12 @@ void write_harmonics(const path& file, const std::vector<StatisticsSeries>& all,
     const auto spectrum = kinetics::line_spectrum(series.values, turns, n_lines);
     double largest = std::abs(spectrum.mean);
     for (const auto& line : spectrum.lines) largest = std::max(largest, line.amplitude);
-    rows.add(series, {0, spectrum.mean, 0});
+    const auto unit = shown_unit(series.unit);
+    rows.add(series, {0, unit.value(spectrum.mean), 0});
     for (const auto& line : spectrum.lines)
       if (line.amplitude > worth_a_line * largest)
-        rows.add(series, {line.order, line.amplitude, wrapped(line.phase_rad + line.order * begin_rad)});
+        rows.add(series,
+                 {line.order, unit.value(line.amplitude), wrapped(line.phase_rad + line.order * begin_rad)});
   }
   rows.write(file, {"order", "amplitude", "phase"}, {"", "", "rad"});
 }
@@ -102,15 +109,17 @@ void write_polar(const path& file, const kinetics::LoadHistory& loads) {
     columns.push_back({resultant.role + ".magnitude", "N", to_vector(polar.magnitude)});
     columns.push_back({resultant.role + ".direction", "rad", to_vector(polar.direction_rad)});
   }
-  write_csv(file, columns);
+  write_csv(file, in_shown_units(std::move(columns)));
 }
 
 void write_spectra(const path& file, const std::vector<StatisticsSeries>& all, bool repeats) {
   Rows rows(3);
-  for (const auto& series : all)
+  for (const auto& series : all) {
+    const auto unit = shown_unit(series.unit);
     for (const auto& cycle : kinetics::spectrum(repeats ? kinetics::rainflow_repeating(series.values)
                                                         : kinetics::rainflow(series.values)))
-      rows.add(series, {cycle.range, cycle.mean, cycle.count});
+      rows.add(series, {unit.value(cycle.range), unit.value(cycle.mean), cycle.count});
+  }
   rows.write(file, {"range", "mean", "count"}, {"", "", ""});
 }
 

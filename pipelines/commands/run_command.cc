@@ -40,6 +40,7 @@
 #include "pipelines/report/summary.h"
 #include "pipelines/report_parts/duty_report.h"
 #include "pipelines/report_parts/fatigue_report.h"
+#include "pipelines/result_fields/life_text.h"
 #include "pipelines/result_files/envelope_files.h"
 #include "pipelines/result_files/results.h"
 #include "pipelines/result_files/run_record.h"
@@ -418,7 +419,13 @@ void run(const RunCommandOptions& as_given, std::ostream& out) {
       variant};
   if (as_on_first_rank(is_first_rank() && is_unchanged(request, scene))) return;
   require_own_variant(directory, variant);
-  StageClock clock(progress_on_stderr(options.verbosity(), with_default(accuracy).time_limit_s));
+  double expected_s = 0;
+  if (!scene.bodies.empty() && has_progress_bar(options.verbosity())) {
+    auto as_asked = scene;
+    as_asked.accuracy = accuracy;
+    expected_s = expected_seconds(as_asked);
+  }
+  StageClock clock(progress_on_stderr(options.verbosity(), expected_s));
   (scene.bodies.empty() ? run_load_stage : run_bodies)(request, scene, clock);
 }
 

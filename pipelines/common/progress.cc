@@ -19,18 +19,18 @@ void tell(const std::string& text) {
   std::fputs(text.c_str(), stderr);
 }
 
-/// The present stage, when it all began, and how long it may take.
+/// The present stage, when it all began, and how long it is expected to take.
 struct Bar {
   std::string stage;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-  double limit_s = 0;
+  double expected_s = 0;
 
   void draw(double share_of_stage, const std::string& step) const {
     const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - start;
-    const double share = limit_s > 0 ? so_far.count() / limit_s : share_of_stage;
+    const double share = expected_s > 0 ? so_far.count() / expected_s : share_of_stage;
     const int full = int(std::clamp(share, 0.0, 1.0) * bar_width);
     const auto left =
-        limit_s > so_far.count() ? fmt::format(", at most {:.0f} s left", limit_s - so_far.count()) : "";
+        expected_s > so_far.count() ? fmt::format(", about {:.0f} s left", expected_s - so_far.count()) : "";
     // Erase to the end of the line, so that a longer text before leaves nothing behind.
     tell(fmt::format("\r  [{:#<{}}{:.<{}}] {:.0f} s{}  {} {}\x1b[K", "", full, "", bar_width - full,
                      so_far.count(), left, stage, step));
@@ -40,12 +40,12 @@ struct Bar {
 
 }  // namespace
 
-ProgressListener progress_on_stderr(Verbosity verbosity, double limit_s) {
+ProgressListener progress_on_stderr(Verbosity verbosity, double expected_s) {
   ProgressListener listener;
   if (verbosity == Verbosity::quiet) return listener;
-  const bool terminal = isatty(STDERR_FILENO) == 1, verbose = verbosity == Verbosity::verbose;
+  const bool terminal = has_progress_bar(verbosity), verbose = verbosity == Verbosity::verbose;
   const auto bar = std::make_shared<Bar>();
-  bar->limit_s = limit_s;
+  bar->expected_s = expected_s;
   listener.begin = [=](const std::string& name) {
     bar->stage = name;
     if (terminal) bar->draw(0, "");
@@ -67,6 +67,10 @@ ProgressListener progress_on_stderr(Verbosity verbosity, double limit_s) {
     std::fflush(stderr);
   };
   return listener;
+}
+
+bool has_progress_bar(Verbosity verbosity) {
+  return verbosity != Verbosity::quiet && isatty(STDERR_FILENO) == 1;
 }
 
 }  // namespace pipelines

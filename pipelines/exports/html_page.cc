@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdint>
 
@@ -23,11 +24,14 @@ tr:nth-child(even) td { background: #f5f5f5; } .number { text-align: right; font
 .ok { background: #dff2df; border-left: 6px solid #2c8a2c; } .not-ok { background: #fbdcdc; border-left: 6px solid #c02020; }
 .not-judged { background: #fff3d6; border-left: 6px solid #d69e00; } summary { cursor: pointer; }
 pre { overflow-x: auto; background: #f5f5f5; padding: .6rem; font-size: 12px; line-height: 1.35; }
+@media print { body { font-size: 11px; } h1 { font-size: 1.3rem; } .verdict { font-size: 1rem; } }
 img { max-width: 100%; } figure { margin: 1rem 0; } figcaption { color: #555; }
 )";
 
+/// "8 h of 20000 h" is a text.
 bool is_number(const std::string& cell) {
-  return !cell.empty() && (std::isdigit(static_cast<unsigned char>(cell[0])) || cell[0] == '-');
+  return !cell.empty() && (std::isdigit(static_cast<unsigned char>(cell[0])) || cell[0] == '-') &&
+         std::none_of(cell.begin(), cell.end(), [](unsigned char c) { return std::isalpha(c) && c != 'e'; });
 }
 
 std::string shown(const std::string& text) {

@@ -26,7 +26,8 @@ public:
   void folded(const std::string& title, const std::function<void()>& add);
   /// As it stands, in letters of one width.
   void preformatted(const std::string& text);
-  /// Cells that begin with a digit or sign stand to the right. Rows without cells are left out.
+  /// Cells that begin with a digit or sign and have no words stand to the right. Rows without cells are left
+  /// out.
   void table(const std::vector<std::string>& titles, const std::vector<std::vector<std::string>>& rows);
   /// The bytes of a PNG file become part of the page; nothing if there is no such file.
   void picture(const std::filesystem::path& png, const std::string& what_it_shows);

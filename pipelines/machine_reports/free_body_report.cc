@@ -10,6 +10,7 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/exports/vtk_arrows.h"
 #include "pipelines/exports/vtk_files.h"
+#include "pipelines/fields/shown_unit.h"
 #include "pipelines/files/csv.h"
 
 namespace pipelines {
@@ -55,15 +56,15 @@ void write_table(const std::filesystem::path& file, const kinetics::FreeBody& bo
       couple.push_back(load.couple_N_m[i]);
       moment.push_back(moment_N_m(load, i));
     }
-  write_csv(file, {{"time", "s", time},
-                   {"drive_angle", "rad", angle},
-                   {"load", "", names},
-                   {"x", "m", x},
-                   {"y", "m", y},
-                   {"fx", "N", fx},
-                   {"fy", "N", fy},
-                   {"couple", "N m", couple},
-                   {"moment", "N m", moment}});
+  write_csv(file, in_shown_units({{"time", "s", time},
+                                  {"drive_angle", "rad", angle},
+                                  {"load", "", names},
+                                  {"x", "m", x},
+                                  {"y", "m", y},
+                                  {"fx", "N", fx},
+                                  {"fy", "N", fy},
+                                  {"couple", "N m", couple},
+                                  {"moment", "N m", moment}}));
 }
 
 std::vector<std::vector<Point>> outlines(const Scene& scene, const kinetics::FreeBody& body, Index i) {

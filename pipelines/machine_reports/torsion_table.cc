@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "pipelines/common/constants.h"
+#include "pipelines/fields/shown_unit.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/machine_reports/published_torsion.h"
 #include "pipelines/machine_reports/torsion_json.h"
@@ -190,14 +191,14 @@ void write_torsion_files(const std::filesystem::path& directory, const Scene& sc
   std::vector<CsvColumn> modes{numbers("frequency", "rad/s", report.modes.frequency_rad_s)};
   for (std::size_t i = 0; i < train.inertias.size(); ++i) {
     const auto row = Index(i);
-    modes.push_back(numbers(train.inertias[i].name + ".shape", "rad", report.modes.shape.row(row)));
+    modes.push_back(numbers(train.inertias[i].name + ".shape", "1", report.modes.shape.row(row)));
     modes.push_back(
         numbers(train.inertias[i].name + ".kinetic_share", "1", report.modes.kinetic_share.row(row)));
   }
   for (std::size_t e = 0; e < train.elements.size(); ++e)
     modes.push_back(numbers(train.elements[e].name + ".potential_share", "1",
                             report.modes.potential_share.row(Index(e))));
-  write_csv(directory / "modes.csv", modes);
+  write_csv(directory / "modes.csv", in_shown_units(std::move(modes)));
 
   std::vector<double> frequency;
   for (const auto& h : report.forced.harmonics) frequency.push_back(h.frequency_rad_s);
@@ -218,7 +219,7 @@ void write_torsion_files(const std::filesystem::path& directory, const Scene& sc
     add(train.elements[e].name + ".reduced_torque", "N m",
         [&](const auto& h) { return h.reduced_torque_Nm[Index(e)]; });
   }
-  write_csv(directory / "forced.csv", forced);
+  write_csv(directory / "forced.csv", in_shown_units(std::move(forced)));
 
   const auto& campbell = report.campbell;
   std::vector<CsvColumn> table{numbers("speed", "rad/s", campbell.speed_rad_s)};
@@ -244,7 +245,7 @@ void write_torsion_files(const std::filesystem::path& directory, const Scene& sc
     columns.push_back(numbers("potential_energy", "J", t.potential_J));
     columns.push_back(numbers("work", "J", t.work_J));
     columns.push_back(numbers("dissipated", "J", t.dissipated_J));
-    write_csv(directory / "transient.csv", columns);
+    write_csv(directory / "transient.csv", in_shown_units(std::move(columns)));
   }
 
   if (report.published) write_published(directory, *report.published);

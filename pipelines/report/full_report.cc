@@ -7,15 +7,13 @@
 
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/governing_stress.h"
-#include "pipelines/body_stages/shaft_torsion.h"
-#include "pipelines/common/constants.h"
 #include "pipelines/report/summary.h"
 #include "pipelines/report/table_parts.h"
 #include "pipelines/report_parts/duty_report.h"
 #include "pipelines/report_parts/fatigue_assumptions.h"
 #include "pipelines/report_parts/fatigue_report.h"
 #include "pipelines/report_parts/shaft_torsion_report.h"
-#include "pipelines/report_parts/zone_text.h"
+#include "pipelines/result_fields/zone_fields.h"
 
 namespace pipelines {
 namespace {
@@ -34,18 +32,11 @@ void print_masses(std::ostream& out, const RunReport& report, const BodyAnalysis
                        carried.abs().maxCoeff(), std::sqrt(carried.square().mean()));
 }
 
-void print_hot_spots(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
-  if (analysis.hot_spots.empty()) return;
-  out << fmt::format("\n  {:<40}{:>14}{:>10}{:>20}  {}\n", "weld toe, hot-spot stress", "von Mises MPa",
-                     "+- MPa", "range across MPa", "moment");
+void print_hot_spots(std::ostream& out, const BodyResult& body) {
   constexpr std::size_t shown = 5;
-  for (std::size_t i = 0; i < std::min(shown, analysis.hot_spots.size()); ++i) {
-    const auto& spot = analysis.hot_spots[i];
-    out << fmt::format("  {:<40}{:>14}{:>10}{:>20.1f}  {}\n", spot.name,
-                       stress_in_MPa(spot.von_mises_Pa, error_Pa(analysis, spot)),
-                       fixed(error_Pa(analysis, spot) / 1e6, 1),
-                       (spot.max_normal_Pa - spot.min_normal_Pa) / 1e6, moment_text(report, spot.instant));
-  }
+  const auto fields = hot_spot_fields();
+  print_rows(out, "weld toe, hot-spot stress",
+             shown_rows(fields_of(fields), summary_rows(fields, body, body.analysis.hot_spots), shown));
 }
 
 void print_search(std::ostream& out, const Search& search) {
@@ -91,34 +82,24 @@ void print_governing(std::ostream& out, const RunReport& report, const BodyAnaly
                      moment_text(report, stress.instant));
 }
 
-/// The peak, where a hot spot is worse.
-void print_peak(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
-  if (governing_stress(analysis).kind == GoverningStress::Kind::peak) return;
-  const Peak& peak = analysis.peak;
-  out << fmt::format(
-      "\n  peak von Mises stress outside the exclusion distances {}, safety against yield {}\n",
-      value_with_errors(peak.value_Pa, peak.errors), fixed(peak.safety, 2));
-  out << fmt::format("    at {} ({}), {}, {}\n", peak.feature, to_string(peak.place),
-                     point_text(peak.position_m), moment_text(report, peak.instant));
+/// Beside the governing one.
+void print_headlines(std::ostream& out, const BodyResult& body) {
+  auto rows = headline_rows(summary_row(headline_fields(), body));
+  rows.cells.erase(rows.cells.begin());
+  print_rows(out, "other stresses", rows);
 }
 
-void print_zones(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
-  const auto& zones = analysis.zones.zones;
-  out << fmt::format("\n  zones above {} MPa{:>22}{:>9}{:>9}{:>13}{:>14}  {:<20}{}\n",
-                     stress_in_MPa(analysis.zones.level_Pa, 0), "peak MPa", "+- MPa", "safety", "volume mm3",
-                     "+- mm3", "  moment", "where");
-  for (std::size_t i = 0; i < std::min(n_zones_shown, zones.size()); ++i) {
-    const auto error = error_Pa(analysis, zones[i]);
-    const auto volume = volume_text(zones[i].volume_m3, zones[i].volume_error_m3);
-    out << fmt::format("  {:>3}  {:<34}{:>7}{:>9}{:>9}{:>13} {:>13}  {:<20}{}\n", i + 1, zones[i].feature,
-                       stress_in_MPa(zones[i].peak_Pa, error.value_or(0)),
-                       error ? fixed(*error / 1e6, 1) : "-", fixed(zones[i].safety, 2), volume.volume,
-                       volume.error, "  " + moment_text(report, zones[i].instant), to_string(zones[i].place));
-    for (const auto& text : {causes_text(analysis, i), parts_text(zones[i])})
-      if (!text.empty()) out << "       " << text << '\n';
-  }
-  if (zones.size() > n_zones_shown)
-    out << fmt::format("       and {} more in zones.csv\n", zones.size() - n_zones_shown);
+void print_zones(std::ostream& out, const BodyResult& body) {
+  const auto& zones = body.analysis.zones;
+  const auto fields = zone_fields();
+  const auto rows = summary_rows(fields, body, zones.zones);
+  std::vector<std::vector<std::string>> notes;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    notes.push_back({causes_of_row(rows[i]), parts_text(zones.zones[i])});
+  print_rows(out, fmt::format("zones above {} MPa", stress_in_MPa(zones.level_Pa, 0)),
+             shown_rows(fields_of(fields), rows, n_zones_shown), notes);
+  if (rows.size() > n_zones_shown)
+    out << fmt::format("       and {} more in zones.csv\n", rows.size() - n_zones_shown);
 }
 
 void print_solver(std::ostream& out, const BodyAnalysis& analysis) {
@@ -146,40 +127,24 @@ void print_solver(std::ostream& out, const BodyAnalysis& analysis) {
 }
 
 void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  const BodyResult body{report.scene, report.loads, analysis};
   if (analysis.fatigue) out << "\n  " << analysis.scene.name << ": " << strength_text(report.scene, analysis);
   print_governing(out, report, analysis);
   print_solver(out, analysis);
   out << fmt::format("  closure on the mesh: forces {:.1e}, moments {:.1e}\n", analysis.closure.worst_force(),
                      analysis.closure.worst_moment());
   print_masses(out, report, analysis);
-  print_peak(out, report, analysis);
   if (const auto corners = corners_left_out(analysis); !corners.empty())
     out << "  left out, since stress grows without bound at a sharp corner: " << corners << '\n';
   print_search(out, analysis.search);
-  const std::size_t p = analysis.principal_node;
-  out << fmt::format("  largest principal stress {} MPa\n",
-                     stress_in_MPa(analysis.envelope.principal.value_Pa[p], 0));
-  if (const auto* ring = analysis.diagrams ? largest_torsion_ring(*analysis.diagrams) : nullptr) {
-    const double error_Pa = ring_error_Pa(analysis, *ring);
-    if (is_rounding(analysis, *ring))
-      out << "  no torsional stress: nothing twists the shaft\n";
-    else
-      out << fmt::format(
-          "  largest torsional stress {} MPa{} at {}, z = {:.1f} mm\n", fixed(ring->max_Pa / 1e6, 2),
-          std::isfinite(error_Pa) ? " +- " + fixed(error_Pa / 1e6, 2) : "", ring->feature, ring->z_m * 1e3);
-  }
-
-  print_zones(out, report, analysis);
+  print_headlines(out, body);
+  print_zones(out, body);
   if (analysis.vibration) print_vibration(out, *analysis.vibration);
-  print_hot_spots(out, report, analysis);
+  print_hot_spots(out, body);
   print_fatigue(out, report, analysis);
   print_element_torsion(out, report, analysis);
   print_start_up(out, analysis);
-  if (!analysis.diagrams) return;
-  out << fmt::format("\n  {:<28}{:>16}{:>16}\n", "seat", "deflection mm", "slope mrad");
-  for (const auto& seat : analysis.diagrams->seats)
-    out << fmt::format("  {:<28}{:>16.4f}{:>16.3f}\n", seat.port, seat.max_deflection_m * 1e3,
-                       seat.max_slope_rad * 1e3);
+  if (analysis.diagrams) print_rows(out, "seat", shown_seats(seats_json(*analysis.diagrams)));
 }
 
 }  // namespace

@@ -12,29 +12,24 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/exports/html_page.h"
+#include "pipelines/fields/shown_unit.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/json_file.h"
 #include "pipelines/files/whole_file.h"
 #include "pipelines/report/fatigue_html.h"
 #include "pipelines/report/html_values.h"
 #include "pipelines/report/torsion_html.h"
-#include "pipelines/report_parts/zone_text.h"
+#include "pipelines/report_parts/shaft_torsion_report.h"
+#include "pipelines/result_fields/bearing_fields.h"
+#include "pipelines/result_fields/zone_fields.h"
 
 namespace pipelines {
 namespace {
 
-using html::Json, html::moment, html::MPa, html::number, html::Rows;
+using html::Json, html::MPa, html::number, html::Rows;
 
 std::string file_text(const std::filesystem::path& file) {
   return whole_file(file).value_or("");
-}
-
-std::string where(const Json& at) {
-  const auto& x = at.at("position_m");
-  const std::string feature = at.at("feature").get<std::string>();
-  return fmt::format("{}{}({}, {}, {}) mm", feature, feature.empty() ? "" : ", ",
-                     number(x.at(0), 1e3, "{:.1f}"), number(x.at(1), 1e3, "{:.1f}"),
-                     number(x.at(2), 1e3, "{:.1f}"));
 }
 
 std::string with_spaces(std::string name) {
@@ -54,37 +49,6 @@ void add_budget(HtmlPage& page, const std::string& of, const Json& error, double
   page.table({"source of error", "MPa", "share", "how it was estimated"}, rows);
 }
 
-void add_headlines(HtmlPage& page, const Json& body) {
-  const auto& governing = body.at("governing");
-  const auto& peak = body.at("peak_von_mises");
-  Rows rows{
-      {governing.at("name").get<std::string>(), governing.at("text").get<std::string>(), where(governing),
-       moment(governing)},
-      {"safety against yield", number(governing.at("safety_against_yield"), 1, "{:.2f}"),
-       body.at("material").get<std::string>() + ", " + MPa(body.at("yield_strength").at("value")) + " MPa",
-       ""}};
-  if (governing.at("kind") != "peak_von_mises")
-    rows.push_back({"peak von Mises stress outside the exclusion distances",
-                    MPa(peak.at("value")) + " MPa, error " + MPa(peak.at("error").at("total")), where(peak),
-                    moment(peak)});
-  rows.push_back({"largest principal stress", MPa(body.at("peak_principal").at("value")) + " MPa",
-                  where(body.at("peak_principal")), moment(body.at("peak_principal"))});
-  if (body.contains("hot_spots") && governing.at("kind") != "hot_spot") {
-    const auto& spot = body.at("hot_spots").at(0);
-    rows.push_back({"hot-spot stress",
-                    MPa(spot.at("von_mises_Pa")) + " MPa, error " + MPa(spot.at("error").at("total")),
-                    spot.at("name").get<std::string>(), ""});
-  }
-  if (body.contains("torsion")) {
-    const auto& shear = body.at("torsion").at("max_shear_stress");
-    const auto error = shear.value("error", Json(nullptr));  // not known, or results of an earlier version
-    rows.push_back({"largest torsional stress",
-                    MPa(shear.at("value")) + " MPa" + (error.is_null() ? "" : ", error " + MPa(error)),
-                    shear.contains("feature") ? shear.at("feature").get<std::string>() : "", ""});
-  }
-  page.table({"", "value", "where", "when"}, rows);
-}
-
 void add_effects(HtmlPage& page, const Json& peak) {
   if (!peak.contains("effect_share")) return;
   Rows rows;
@@ -99,62 +63,24 @@ void add_effects(HtmlPage& page, const Json& peak) {
   page.table({"in sum", "share"}, sums);
 }
 
-/// Of "causes.peak", "causes.amplitude" or "causes.damage".
-std::string brought_by(const Json& causes) {
-  std::vector<NamedShare> shares;
-  if (causes.contains("effects"))
-    for (const auto& [name, share] : causes.at(causes.contains("groups") ? "groups" : "effects").items())
-      shares.push_back({name, share.get<double>()});
-  return largest_shares(std::move(shares));
-}
-
-void add_zone_causes(HtmlPage& page, const Json& zones) {
-  Rows rows;
-  std::size_t n = 0;
-  for (const auto& zone : zones) {
-    ++n;
-    if (!zone.contains("causes")) continue;
-    const auto& amplitude = zone.at("causes").at("amplitude");
-    rows.push_back({fmt::format("{}", n), MPa(zone.at("peak_von_mises_Pa")),
-                    brought_by(zone.at("causes").at("peak")), MPa(amplitude.at("value_Pa")),
-                    brought_by(amplitude)});
-    if (zone.at("causes").contains("damage"))
-      rows.back().push_back(brought_by(zone.at("causes").at("damage")));
-  }
-  std::vector<std::string> titles{"", "peak MPa", "brought by", "amplitude MPa", "brought by"};
-  if (!rows.empty() && rows.front().size() > titles.size()) titles.emplace_back("damage by");
-  page.table(titles, rows);
-  Rows parts;
-  for (const auto& zone : zones)
-    if (zone.contains("parts"))
-      for (const auto& part : zone.at("parts"))
-        parts.push_back({part.at("zone").get<std::string>(), MPa(part.at("level_Pa")),
-                         MPa(part.at("peak_von_mises_Pa")), where(part), moment(part)});
-  page.table({"part", "above MPa", "peak MPa", "where", "when"}, parts);
-}
-
-/// Results of earlier versions have no error.
-VolumeText volume_of(const Json& zone) {
-  const auto known = [&](const char* key) {
-    return zone.contains(key) && zone.at(key).is_number() ? std::optional<double>(zone.at(key).get<double>())
-                                                          : std::nullopt;
-  };
-  return volume_text(known("volume_m3").value_or(std::nan("")), known("volume_error_m3"));
+void add_table(HtmlPage& page, const ShownRows& shown) {
+  page.table(shown.titles, shown.cells);
 }
 
 void add_zones(HtmlPage& page, const Json& body) {
-  Rows rows;
-  for (const auto& zone : body.at("zones")) {
-    const auto volume = volume_of(zone);
-    rows.push_back({fmt::format("{}", rows.size() + 1), MPa(zone.at("peak_von_mises_Pa")),
-                    MPa(zone.at("error_Pa")), number(zone.at("safety_against_yield"), 1, "{:.2f}"),
-                    volume.volume, volume.error, where(zone), moment(zone),
-                    zone.at("place").get<std::string>()});
-  }
+  const auto& zones = body.at("zones");
+  const auto fields = fields_of(zone_fields());
   page.heading(3, "Zones above " + MPa(body.at("zone_level").at("value")) + " MPa");
-  page.table({"", "peak MPa", "error MPa", "safety", "volume mm3", "error mm3", "where", "when", "surface"},
-             rows);
-  add_zone_causes(page, body.at("zones"));
+  add_table(page, shown_rows(fields, zones, zones.size()));
+  add_table(page, shown_details(fields, zones, zones.size()));
+  auto parts = Json::array();
+  for (const auto& zone : zones)
+    for (const auto& part : zone.value("parts", Json::array())) parts.push_back(part);
+  add_table(page, shown_rows(fields_of(zone_part_fields()), parts, parts.size()));
+  if (!body.contains("hot_spots")) return;
+  constexpr std::size_t most = 12;
+  page.heading(3, "Hot-spot stress at weld toes");
+  add_table(page, shown_rows(fields_of(hot_spot_fields()), body.at("hot_spots"), most));
 }
 
 void add_search(HtmlPage& page, const Json& body) {
@@ -175,12 +101,9 @@ void add_search(HtmlPage& page, const Json& body) {
 
 void add_seats(HtmlPage& page, const Json& body) {
   if (!body.contains("seats")) return;
-  Rows rows;
-  for (const auto& [port, seat] : body.at("seats").items())
-    rows.push_back({port, number(seat.at("max_deflection_m"), 1e3, "{:.4f}"),
-                    number(seat.at("max_slope_rad"), 1e3, "{:.3f}")});
+  const auto shown = shown_seats(body.at("seats"));
   page.heading(3, "Deflection and slope");
-  page.table({"seat", "deflection mm", "slope mrad"}, rows);
+  page.table(shown.titles, shown.cells);
 }
 
 /// The model, and of a solid how it was solved.
@@ -201,15 +124,17 @@ void add_verdict(HtmlPage& page, const Json& summary) {
   page.verdict(verdict.at("judgement").get<std::string>(), verdict.at("headline").get<std::string>());
   Rows rows;
   for (const auto& [name, part] : verdict.at("parts").items())
-    for (const auto& finding : part.at("findings"))
-      rows.push_back({name, finding.at("judgement").get<std::string>(),
-                      finding.at("criterion").get<std::string>(), finding.at("figure").get<std::string>(),
-                      finding.at("place").get<std::string>(), finding.at("remedy").get<std::string>()});
+    for (const auto& finding : part.at("findings")) {
+      const auto text = [&](const char* key) { return finding.at(key).get<std::string>(); };
+      const auto place = text("place").empty() ? "" : ", at " + text("place");
+      const auto remedy = text("remedy").empty() ? "" : "; to do: " + text("remedy");
+      rows.push_back({name, text("judgement"), text("criterion"), text("figure") + place + remedy});
+    }
   std::string left_out;
   for (const auto& what : verdict.value("left_out", Json::array()))
     left_out += (left_out.empty() ? "" : ", ") + what.get<std::string>();
   if (!left_out.empty()) page.paragraph("Not weighed, by the scene: " + left_out + ".");
-  page.table({"", "verdict", "criterion", "figure and limit", "weakest place", "what to do"}, rows);
+  page.table({"", "verdict", "criterion", "figure and limit, at the weakest place"}, rows);
 }
 
 void add_body(HtmlPage& page, const std::filesystem::path& directory, const std::string& name,
@@ -220,9 +145,11 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
   if (const auto strength = body.value("fatigue_strength", ""); !strength.empty()) page.paragraph(strength);
   if (const auto rise = body.at("governing").value("rises_towards_edge", ""); !rise.empty())
     page.warning("Sharp edge: " + rise);
-  page.paragraph(number(body.at("dofs"), 1, "{:.0f}") + " unknowns, " + number(body.at("mass").at("value")) +
-                 " kg, " + solved_by(body) + ".");
-  add_headlines(page, body);
+  page.paragraph(fmt::format("{} unknowns, {} kg of {} with a yield strength of {} MPa, {}.",
+                             number(body.at("dofs"), 1, "{:.0f}"), number(body.at("mass").at("value")),
+                             body.at("material").get<std::string>(),
+                             MPa(body.at("yield_strength").at("value")), solved_by(body)));
+  add_table(page, headline_rows(body));
   page.picture(directory / name / "envelope.png", "Largest von Mises stress over the cycle, " + name);
   add_zones(page, body);
   const auto& governing = body.at("governing");
@@ -239,57 +166,32 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
 }
 
 /// What rounding leaves of a mean that is none is 0.
-std::string mean_of(const Json& load) {
+std::string mean_of(const Json& load, double one) {
   const auto size = [&](const char* key) {
     return load.at(key).is_number() ? std::abs(load.at(key).get<double>()) : 0.0;
   };
   if (!load.at("mean").is_number()) return "-";
-  return number(without_rounding(load.at("mean").get<double>(), std::max(size("max"), size("min"))));
+  return number(without_rounding(load.at("mean").get<double>(), std::max(size("max"), size("min"))), 1 / one);
 }
 
 void add_loads(HtmlPage& page, const Json& summary) {
   if (!summary.contains("loads")) return;  // all are zero
   Rows rows;
-  for (const auto& [name, load] : summary.at("loads").items())
-    rows.push_back({name, number(load.at("max")), number(load.at("min")), mean_of(load),
-                    number(load.at("rms")), load.at("unit").get<std::string>()});
+  for (const auto& [name, load] : summary.at("loads").items()) {
+    const auto shown = shown_unit(load.at("unit").get<std::string>());
+    rows.push_back({name, number(load.at("max"), 1 / shown.one), number(load.at("min"), 1 / shown.one),
+                    mean_of(load, shown.one), number(load.at("rms"), 1 / shown.one), shown.unit});
+  }
   page.heading(2, "Loads over the cycle");
   page.table({"load", "max", "min", "mean", "rms", "unit"}, rows);
 }
 
-/// What the scene asks beyond L10; a table only if it asks.
-void add_bearing_answers(HtmlPage& page, const Json& bearings) {
-  const std::vector<std::pair<const char*, const char*>> keys = {
-      {"reliability", "reliability"},
-      {"a1", "a1 (ISO 281)"},
-      {"a_ISO", "a_ISO (ISO 281)"},
-      {"modified_life", "modified life h (ISO 281)"},
-      {"required_life", "required life h"},
-      {"required_rating", "required rating N (ISO 281)"},
-      {"required_rating_weibull", "required rating N (Weibull)"},
-      {"reliability_weibull", "reliability at the required life (Weibull)"},
-      {"static_safety", "static safety"}};
-  Rows rows;
-  for (const auto& [name, bearing] : bearings.items())
-    for (const auto& [key, title] : keys)
-      if (bearing.contains(key)) {
-        const Json& value = bearing.at(key);
-        rows.push_back({name, title, number(value.is_object() ? value.at("value") : value, 1, "{:.5g}")});
-      }
-  if (!rows.empty()) page.table({"bearing", "asked", ""}, rows);
-}
-
 void add_bearings(HtmlPage& page, const Json& summary) {
   if (!summary.contains("bearings")) return;
-  Rows rows;
-  for (const auto& [name, bearing] : summary.at("bearings").items())
-    rows.push_back(
-        {name, number(bearing.at("equivalent_load").at("value")),
-         number(bearing.at("largest_load").at("value")),
-         bearing.at("L10h").is_null() ? "-" : number(bearing.at("L10h").at("value"), 1, "{:.0f}")});
+  const auto& bearings = summary.at("bearings");
   page.heading(2, "Bearings");
-  page.table({"bearing", "equivalent load N", "largest N", "L10h hours"}, rows);
-  add_bearing_answers(page, summary.at("bearings"));
+  for (const auto& shown : {shown_bearings(bearings), shown_bearing_answers(bearings)})
+    page.table(shown.titles, shown.cells);
 }
 
 void add_natural_frequencies(HtmlPage& page, const Json& summary) {

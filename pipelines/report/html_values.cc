@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "pipelines/common/constants.h"
-
 namespace pipelines::html {
 
 std::string number(const Json& value, double factor, const char* format) {
@@ -16,11 +14,6 @@ std::string number(const Json& value, double factor, const char* format) {
 
 std::string MPa(const Json& pascals) {
   return number(pascals, 1e-6, "{:.1f}");
-}
-
-std::string moment(const Json& at) {
-  return fmt::format("turn {}, {} deg", number(at.at("turn"), 1, "{:.0f}"),
-                     number(at.at("drive_angle_rad"), 180 / pi, "{:.0f}"));
 }
 
 }  // namespace pipelines::html

@@ -17,8 +17,4 @@ std::string number(const Json& value, double factor = 1, const char* format = "{
 /// A stress given in Pa.
 std::string MPa(const Json& pascals);
 
-/// "turn 4, 30 deg"
-/// @param at  has `turn` and `drive_angle_rad`
-std::string moment(const Json& at);
-
 }  // namespace pipelines::html

@@ -18,7 +18,8 @@
 #include "pipelines/report_parts/fatigue_assumptions.h"
 #include "pipelines/report_parts/fatigue_report.h"
 #include "pipelines/report_parts/shaft_torsion_report.h"
-#include "pipelines/report_parts/zone_text.h"
+#include "pipelines/result_fields/life_text.h"
+#include "pipelines/result_fields/zone_fields.h"
 
 namespace pipelines {
 namespace {
@@ -134,8 +135,10 @@ void print_short_zones(std::ostream& out, const RunReport& report, const BodyAna
                        error ? with_error(zone.peak_Pa, *error) : stress_in_MPa(zone.peak_Pa, 0),
                        fixed(zone.safety, 2), volume_text(zone.volume_m3, zone.volume_error_m3).volume,
                        moment_text(report, zone.instant), to_string(zone.place));
-    if (const auto causes = causes_text(analysis, row.zone); n_shown == 1 && !causes.empty())
-      out << "        " << causes << '\n';
+    if (n_shown > 1) continue;
+    const auto causes =
+        causes_of_row(summary_row(zone_fields(), {{report.scene, report.loads, analysis}, zone, row.zone}));
+    if (!causes.empty()) out << "        " << causes << '\n';
   }
   if (zones.size() > n_zones_in_rows)
     out << fmt::format("      and {} more in {}/zones.csv\n", zones.size() - n_zones_in_rows,

@@ -16,6 +16,7 @@
 #include "pipelines/report/summary_parts.h"
 #include "pipelines/report_parts/duty_report.h"
 #include "pipelines/report_parts/fatigue_report.h"
+#include "pipelines/result_fields/bearing_fields.h"
 #include "pipelines/scene/machine_kind.h"
 #include "pipelines/verdict/verdict_text.h"
 
@@ -56,22 +57,6 @@ Json choice_json(const RunReport& report) {
     json["bodies"][analysis.scene.name] = bound(analysis.dropped->together);
   }
   return json;
-}
-
-/// What the scene asks of a bearing beyond L10; other keys are not there.
-void add_answers(Json& entry, const BearingAnswers& answers) {
-  const auto add = [&](const char* key, const std::optional<double>& value, const char* unit = nullptr) {
-    if (value) entry[key] = unit != nullptr ? figure(*value, unit) : number(*value);
-  };
-  add("reliability", answers.reliability);
-  add("a1", answers.a1);
-  add("a_ISO", answers.a_iso);
-  add("modified_life", answers.modified_life_h, "h");
-  add("required_life", answers.required_life_h, "h");
-  add("required_rating", answers.required_rating_N, "N");
-  add("required_rating_weibull", answers.weibull_rating_N, "N");
-  add("reliability_weibull", answers.weibull_reliability);
-  add("static_safety", answers.static_safety);
 }
 
 /// Turns and instants; a run-up has its own.
@@ -143,16 +128,7 @@ std::string summary_json(const RunReport& report) {
   for (const auto& e : resampling_errors(report.scene.machine, report.scene.sampling))
     json["resampling"][e.effect + "/" + e.port + "." + e.component] =
         object({{"largest", e.largest}, {"jump", e.jump}, {"between_samples", e.between}});
-  for (const auto& bearing : report.bearings) {
-    Json& entry = json["bearings"][bearing.name];
-    entry = object({{"load", bearing.load},
-                    {"equivalent_load", figure(bearing.equivalent_load_N, "N")},
-                    {"largest_load", figure(bearing.largest_load_N, "N")},
-                    {"speed", figure(bearing.speed_rad_s, "rad/s")}});
-    entry["L10"] = bearing.life ? Json(bearing.life->million_revolutions * 1e6) : Json(nullptr);
-    entry["L10h"] = bearing.life ? figure(bearing.life->hours, "h") : Json(nullptr);
-    add_answers(entry, bearing.answers);
-  }
+  if (!report.bearings.empty()) json["bearings"] = bearings_json(report.bearings);
   if (const auto ranking = fatigue_ranking_json(report); !ranking.empty()) json["fatigue_ranking"] = ranking;
   if (report.duty != nullptr) json["duty"] = duty_json(*report.duty);
   for (const auto& cost : report.costs)

@@ -1,47 +1,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/exclusion_border.h"
-#include "pipelines/analysis/governing_stress.h"
 #include "pipelines/body_stages/body_vibration.h"
-#include "pipelines/body_stages/shaft_torsion.h"
 #include "pipelines/common/statistics.h"
 #include "pipelines/estimates/energy_errors.h"
 #include "pipelines/report/summary_parts.h"
 #include "pipelines/report_parts/fatigue_assumptions.h"
 #include "pipelines/report_parts/fatigue_report.h"
-#include "pipelines/report_parts/moment.h"
 #include "pipelines/report_parts/shaft_torsion_report.h"
-#include "pipelines/report_parts/zone_text.h"
-#include "pipelines/scene_values/effect_groups.h"
+#include "pipelines/result_fields/zone_fields.h"
 
 namespace pipelines::summary {
 
-Json place_and_moment(const RunReport& report, const std::array<double, 3>& position,
-                      const std::string& feature, Place place, std::int32_t instant) {
-  const auto moment = moment_of(report.scene, report.loads, instant);
-  return object({{"feature", feature},
-                 {"place", to_string(place)},
-                 {"position_m", position},
-                 {"turn", moment.turn},
-                 {"drive_angle_rad", moment.angle_rad}});
-}
-
 namespace {
-
-/// "total" of all sources, "numerical" of those that a finer run would mend, "model" of the others.
-Json budget_json(const ErrorBudget& budget) {
-  Json json = object({{"total", number_or_none(budget.total_Pa())},
-                      {"numerical", number_or_none(budget.numerical_Pa())},
-                      {"model", number_or_none(budget.total_Pa() - budget.numerical_Pa())}});
-  for (const auto* entries : {&budget.numerical, &budget.model})
-    for (const auto& entry : *entries) {
-      json[entry.source] = number_or_none(entry.value_Pa);
-      json["methods"][entry.source] = entry.method;
-    }
-  return json;
-}
 
 /// Seconds are no part of it: they change from run to run.
 Json search_json(const Search& search) {
@@ -60,55 +32,7 @@ Json search_json(const Search& search) {
   return json;
 }
 
-/// What the body is judged by.
-Json governing_json(const RunReport& report, const BodyAnalysis& analysis) {
-  const auto stress = governing_stress(analysis);
-  const bool is_hot_spot = stress.kind == GoverningStress::Kind::hot_spot;
-  Json json = figure(stress.value_Pa, "Pa");
-  json["kind"] = is_hot_spot ? "hot_spot" : "peak_von_mises";
-  json["name"] = stress.name();
-  json["text"] = value_with_errors(stress.value_Pa, stress.errors);
-  json["safety_against_yield"] = number_or_none(stress.safety);
-  json["error"] = budget_json(stress.errors);
-  json.update(place_and_moment(report, stress.position_m, stress.place, stress.surface, stress.instant));
-  const auto trouble = not_known_well(stress, analysis.search);
-  if (!trouble.empty()) json["not_known_well"] = trouble;
-  if (const auto rise = rises_towards_edge(analysis); !rise.empty()) json["rises_towards_edge"] = rise;
-  return json;
-}
-
-Json peak_json(const RunReport& report, const BodyAnalysis& analysis) {
-  const Peak& peak = analysis.peak;
-  Json json = figure(peak.value_Pa, "Pa");
-  json["error"] = budget_json(peak.errors);
-  json["safety_against_yield"] = number_or_none(peak.safety);
-  json.update(place_and_moment(report, peak.position_m, peak.feature, peak.place, peak.instant));
-  json["stress_Pa"] = peak.stress_Pa;
-  const auto& effects = analysis.loads.history.effects;
-  for (std::size_t i = 0; i < effects.size(); ++i)
-    json["effect_share"][effects[i]] = number(peak.effect_share[i]);
-  if (any_sums(effect_groups(effects)))
-    for (const auto& group : group_shares(effects, peak.effect_share))
-      json["effect_group_share"][group.name] = number(group.share);
-  return json;
-}
-
-Json principal_json(const RunReport& report, const BodyAnalysis& analysis) {
-  const std::size_t node = analysis.principal_node;
-  const auto& maximum = analysis.envelope.principal;
-  std::array<double, 3> position;
-  std::copy_n(&analysis.responses.nodes.xyz_m[3 * node], 3, position.begin());
-  Json json = figure(maximum.value_Pa[node], "Pa");
-  json.update(place_and_moment(report, position, feature_at(analysis.responses.nodes, analysis.places, node),
-                               analysis.places.place[node], maximum.instant[node]));
-  json["stress_Pa"] = maximum.stress_Pa[node];
-  return json;
-}
-
-std::array<double, 3> position_of(const fem::Nodes& nodes, std::size_t node) {
-  return {nodes.xyz_m[3 * node], nodes.xyz_m[3 * node + 1], nodes.xyz_m[3 * node + 2]};
-}
-
+/// Beside max_shear_stress, which is a headline.
 Json torsion_json(const BodyAnalysis& analysis) {
   const auto& diagrams = *analysis.diagrams;
   const auto largest_in_section =
@@ -116,18 +40,10 @@ Json torsion_json(const BodyAnalysis& analysis) {
         return a.torsion_Pa.abs().maxCoeff() < b.torsion_Pa.abs().maxCoeff();
       });
   Json json;
-  const auto ring = largest_torsion_ring(diagrams);
-  json["max_shear_stress"] = figure(ring ? ring->max_Pa : 0.0, "Pa");
-  if (ring) {
-    json["max_shear_stress"]["error"] = number_or_none(ring_error_Pa(analysis, *ring));
-    json["max_shear_stress"]["feature"] = ring->feature;
-    json["max_shear_stress"]["z_m"] = ring->z_m;
-  }
   json["max_section_shear_stress"] = figure(largest_in_section->torsion_Pa.abs().maxCoeff(), "Pa");
   json["max_section_shear_stress"]["segment"] = largest_in_section->plane.segment;
   json["max_section_shear_stress"]["z_m"] = largest_in_section->plane.z_m;
-  const auto mismatch = plain_torsion_mismatch(diagrams);
-  json["plain_sections_against_beam"] = number_or_none(mismatch);
+  json["plain_sections_against_beam"] = number_or_none(plain_torsion_mismatch(diagrams));
   return json;
 }
 
@@ -163,9 +79,9 @@ Json energy_error_json(const BodyAnalysis& analysis) {
 
 Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   const auto& quality = analysis.mesh.quality;
-  Json json;
+  const BodyResult body{report.scene, report.loads, analysis};
+  Json json = summary_row(headline_fields(), body);
   if (analysis.fatigue) json["fatigue_strength"] = strength_text(report.scene, analysis);
-  json["governing"] = governing_json(report, analysis);
   json["method"] = to_string(analysis.method);
   json["dofs"] = analysis.responses.n_dofs;
   json["cells"] = quality.n_cells;
@@ -181,49 +97,29 @@ Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   json["channels"] = analysis.responses.channels;
   json["material"] = analysis.scene.material_name;
   json["yield_strength"] = figure(analysis.scene.yield_strength_Pa, "Pa");
-  json["peak_von_mises"] = peak_json(report, analysis);
   if (!analysis.responses.energy_error.norm_sqrtJ.empty()) json["energy_error"] = energy_error_json(analysis);
-  json["peak_principal"] = principal_json(report, analysis);
-  for (const auto& place : analysis.place_stresses)
-    json["places"].push_back(object({{"feature", place.feature},
-                                     {"von_mises_Pa", number(place.value_Pa)},
-                                     {"error_Pa", number_or_none(error_Pa(analysis, place))},
-                                     {"position_m", place.position_m}}));
+  if (!analysis.place_stresses.empty())
+    json["places"] = summary_rows(place_fields(), body, analysis.place_stresses);
   json["zone_level"] = figure(analysis.zones.level_Pa, "Pa");
-  json["zones"] = zones_json(report, analysis);
+  json["zones"] = summary_rows(zone_fields(), body, analysis.zones.zones);
   if (!analysis.search.steps.empty()) json["search"] = search_json(analysis.search);
   if (analysis.vibration) add_vibration(*analysis.vibration, json);
   if (analysis.diagrams) {
-    json["torsion"] = torsion_json(analysis);
+    json["torsion"].update(torsion_json(analysis));
     if (auto elements = element_torsion_json(report, analysis); !elements.is_null())
       json["torsion"]["elements"] = std::move(elements);
-    for (const auto& seat : analysis.diagrams->seats)
-      json["seats"][seat.port] = object({{"z_m", seat.z_m},
-                                         {"max_deflection_m", seat.max_deflection_m},
-                                         {"max_slope_rad", seat.max_slope_rad}});
+    if (auto seats = seats_json(*analysis.diagrams); !seats.is_null()) json["seats"] = std::move(seats);
     json["stress_against_statics"] = object({{"force", number_or_none(analysis.diagrams->force_mismatch)},
                                              {"bending", number_or_none(analysis.diagrams->bending_mismatch)},
                                              {"torque", number_or_none(analysis.diagrams->torque_mismatch)}});
   }
-  for (const auto& spot : analysis.hot_spots) {
-    json["hot_spots"].push_back(object({{"name", spot.name},
-                                        {"von_mises_Pa", number(spot.von_mises_Pa)},
-                                        {"error_Pa", number_or_none(error_Pa(analysis, spot))},
-                                        {"normal_max_Pa", number(spot.max_normal_Pa)},
-                                        {"normal_min_Pa", number(spot.min_normal_Pa)},
-                                        {"position_m", spot.toe_m}}));
-    if (spot.resolved != nullptr) continue;
-    for (const auto& part : stress_point(spot).parts)
-      json["hot_spots"].back()["extrapolated_from"].push_back(object(
-          {{"position_m", position_of(analysis.responses.nodes, part.node)}, {"weight", part.weight}}));
-  }
-  if (!analysis.hot_spots.empty()) json["hot_spots"][0]["error"] = budget_json(analysis.hot_spot_errors);
+  if (!analysis.hot_spots.empty())
+    json["hot_spots"] = summary_rows(hot_spot_fields(), body, analysis.hot_spots);
   if (analysis.fatigue) json["fatigue"] = fatigue_json(report, analysis);
   if (analysis.start_up) json["start_up"] = start_up_json(analysis);
   if (const double border_Pa = largest_at_border_Pa(analysis); border_Pa > 0)
     json["largest_beside_edges"] = figure(border_Pa, "Pa");
-  if (analysis.mesh.smallest_size_m > 0)
-    json["smallest_size"] = figure(analysis.mesh.smallest_size_m, "m");
+  if (analysis.mesh.smallest_size_m > 0) json["smallest_size"] = figure(analysis.mesh.smallest_size_m, "m");
   for (const auto& edge : analysis.mesh.straight_edges)
     json["straight_edges"].push_back(
         object({{"position_m", edge.middle_m}, {"length_m", edge.length_m}, {"off_surface_m", edge.off_m}}));

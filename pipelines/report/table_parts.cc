@@ -9,8 +9,10 @@
 #include "pipelines/channels/load_figures.h"
 #include "pipelines/common/constants.h"
 #include "pipelines/common/statistics.h"
+#include "pipelines/fields/shown_unit.h"
 #include "pipelines/machines/load_table_reader.h"
-#include "pipelines/report_parts/moment.h"
+#include "pipelines/result_fields/bearing_fields.h"
+#include "pipelines/result_fields/moment.h"
 #include "pipelines/scene/machine_kind.h"
 #include "pipelines/verdict/verdict_text.h"
 
@@ -19,9 +21,11 @@ namespace {
 
 void print_load(std::ostream& out, const LoadFigure& figure) {
   const auto& s = figure.statistics;
+  const auto shown = shown_unit(figure.unit);
   const double scale = std::max(std::abs(s.max), std::abs(s.min));
-  out << fmt::format("  {:<28}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}\n", figure.name + " [" + figure.unit + "]",
-                     s.max, s.min, without_rounding(s.mean, scale), s.rms);
+  out << fmt::format("  {:<28}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}\n", figure.name + " [" + shown.unit + "]",
+                     s.max / shown.one, s.min / shown.one, without_rounding(s.mean, scale) / shown.one,
+                     s.rms / shown.one);
 }
 
 std::string window_of(const RunReport& report) {
@@ -67,16 +71,9 @@ void print_resampling(std::ostream& out, const RunReport& report) {
 }
 
 void print_bearings(std::ostream& out, const RunReport& report) {
-  if (report.bearings.empty()) return;
-  out << fmt::format("\n  {:<28}{:>18}{:>14}{:>14}{:>12}\n", "bearing", "equivalent load N", "largest N",
-                     "revolutions", "L10h hours");
-  for (const auto& b : report.bearings) {
-    out << fmt::format("  {:<28}{:>18.5g}{:>14.5g}{:>14}{:>12}\n", b.name, b.equivalent_load_N,
-                       b.largest_load_N,
-                       b.life ? fmt::format("{:.3g}", 1e6 * b.life->million_revolutions) : "unloaded",
-                       b.life ? fmt::format("{:.5g}", b.life->hours) : "-");
-    for (const auto& line : answer_lines(b.answers)) out << "    " << line << '\n';
-  }
+  std::vector<std::vector<std::string>> notes;
+  for (const auto& bearing : report.bearings) notes.push_back(answer_lines(bearing.answers));
+  print_rows(out, "bearing", shown_bearings(bearings_json(report.bearings)), notes);
 }
 
 std::string moment_text(const RunReport& report, std::int32_t instant) {

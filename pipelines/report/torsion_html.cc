@@ -9,6 +9,7 @@
 #include "pipelines/common/constants.h"
 #include "pipelines/machine_reports/torsion_report.h"
 #include "pipelines/report/html_values.h"
+#include "pipelines/report_parts/shaft_torsion_report.h"
 
 namespace pipelines {
 namespace {
@@ -16,12 +17,6 @@ namespace {
 using html::Json, html::number, html::Rows;
 
 constexpr double two_pi = 2 * pi;
-
-void add_start_row(const std::string& name, const Json& of, double factor, const std::string& where,
-                   Rows& rows) {
-  rows.push_back({name, number(of.at("value"), factor), number(of.at("time_s")),
-                  number(of.at("steady"), factor), number(of.at("factor"), 1, "{:.2f}"), where});
-}
 
 /// As LineMargin::matters; of older results all do.
 bool matters(const Json& margin) {
@@ -54,39 +49,15 @@ void add_resonance_margins(HtmlPage& page, const Json& summary) {
 
 void add_shaft_torsion(HtmlPage& page, const Json& body) {
   if (body.contains("torsion") && body.at("torsion").contains("elements")) {
-    Rows rows;
-    for (const auto& [element, of] : body.at("torsion").at("elements").items()) {
-      std::vector<std::string> row{
-          element, of.at("port").get<std::string>(), number(of.at("torque").at("mean")),
-          number(of.at("torque").at("amplitude")), number(of.at("torque_by_stress").at("largest"))};
-      if (of.contains("largest_stress")) {
-        const auto& stress = of.at("largest_stress");
-        for (const char* part : {"mean", "amplitude"}) row.push_back(number(stress.at(part), 1e-6));
-        row.push_back(number(stress.at("factor"), 1, "{:.2f}"));
-        row.push_back(stress.at("feature").get<std::string>());
-      } else {
-        row.resize(9, "-");
-      }
-      rows.push_back(std::move(row));
-    }
+    const auto& elements = body.at("torsion").at("elements");
     page.heading(3, "Torsion");
-    page.table({"element", "port", "mean N m", "amplitude N m", "largest by stress field N m", "static MPa",
-                "oscillating MPa", "K_ts", "where"},
-               rows);
+    for (const auto& shown : {shown_element_torques(elements), shown_element_stresses(elements)})
+      page.table(shown.titles, shown.cells);
   }
   if (!body.contains("start_up")) return;
-  const auto& start = body.at("start_up");
-  Rows rows;
-  const auto& peak = start.at("peak_von_mises");
-  add_start_row("von Mises stress MPa", peak, 1e-6, peak.at("feature").get<std::string>(), rows);
-  if (start.contains("torsional_stress"))
-    add_start_row("torsional stress MPa", start.at("torsional_stress"), 1e-6,
-                  start.at("torsional_stress").at("feature").get<std::string>(), rows);
-  if (start.contains("elements"))
-    for (const auto& [element, of] : start.at("elements").items())
-      add_start_row("torque of " + element + " N m", of, 1, of.at("port").get<std::string>(), rows);
+  const auto shown = shown_start_up(body.at("start_up"));
   page.heading(3, "Start-up");
-  page.table({"", "largest", "at s", "in steady running", "factor", "where"}, rows);
+  page.table(shown.titles, shown.cells);
 }
 
 }  // namespace pipelines

@@ -4,9 +4,8 @@
 #include <filesystem>
 #include <iosfwd>
 
+#include "pipelines/fields/field_outputs.h"
 #include "pipelines/life/duty_result.h"
-#include "pipelines/report_parts/json_values.h"
-#include "pipelines/report_parts/run_report.h"
 
 namespace pipelines {
 
@@ -15,6 +14,15 @@ void print_duty(std::ostream& out, const DutyResult& duty);
 
 /// What `duty` has.
 summary::Json duty_json(const DutyResult& duty);
+
+/// What people read of `duty.blocks`: a row of each block and body.
+ShownRows shown_blocks(const summary::Json& blocks);
+
+/// What people read of `duty.places.<body>`: the first ones.
+ShownRows shown_duty_places(const summary::Json& places, std::size_t most);
+
+/// What people read of `duty.bearings`.
+ShownRows shown_duty_bearings(const summary::Json& bearings);
 
 /// A row for every place of every body: damage per hour in operation, in all, and by each block's running and
 /// starts.

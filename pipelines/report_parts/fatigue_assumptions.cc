@@ -8,7 +8,7 @@
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/analysis/weld_places.h"
 #include "pipelines/life/fatigue_rules.h"
-#include "pipelines/report_parts/fatigue_report.h"
+#include "pipelines/result_fields/life_text.h"
 
 namespace pipelines {
 namespace {

@@ -2,103 +2,85 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <ostream>
 
-#include "pipelines/analysis/error_text.h"
 #include "pipelines/body_stages/shaft_torsion.h"
 #include "pipelines/body_stages/start_up_stress.h"
 #include "pipelines/channels/load_figures.h"
-#include "pipelines/files/csv.h"
+#include "pipelines/fields/shown_unit.h"
+#include "pipelines/result_fields/shaft_fields.h"
 
 namespace pipelines {
 namespace {
 
-using Eigen::ArrayXd;
-using summary::figure;
-using summary::number;
-using summary::number_or_none;
-using summary::object;
+using summary::Json;
 
-std::string place_text(const std::string& feature, double z_m) {
-  return fmt::format("{}, z = {:.1f} mm", feature, 1e3 * z_m);
+CsvColumn series(std::string name, std::string unit, const Eigen::ArrayXd& values) {
+  return in_shown_unit(
+      {std::move(name), std::move(unit), std::vector<double>(values.data(), values.data() + values.size())});
 }
 
-CsvColumn series(std::string name, std::string unit, const ArrayXd& values) {
-  return {std::move(name), std::move(unit),
-          std::vector<double>(values.data(), values.data() + values.size())};
-}
-
-summary::Json course_json(const Course& course, const char* unit) {
-  return object({{"mean", number(course.mean)},
-                 {"amplitude", number(course.amplitude)},
-                 {"largest", number(course.largest)},
-                 {"unit", unit}});
-}
-
-void print_torques(std::ostream& out, const std::vector<ElementTorsion>& elements) {
-  out << fmt::format("\n  {:<24}{:<16}{:>10}{:>12}{:>10}{:>17}{:>13}\n", "torque on the shaft N m", "at port",
-                     "mean", "amplitude", "largest", "by stress field", "difference");
-  for (const auto& e : elements) {
-    const Course& torque = e.torque;
-    out << fmt::format("  {:<24}{:<16}{:>10.4g}{:>12.4g}{:>10.4g}{:>17.4g}{:>13.2g}\n", e.element, e.port,
-                       torque.mean, torque.amplitude, torque.largest, e.by_stress.largest,
-                       e.largest_difference_Nm);
-  }
-}
-
-void print_stresses(std::ostream& out, const std::vector<ElementTorsion>& elements) {
-  out << fmt::format("\n  {:<24}{:>16}{:>10}{:>12}{:>10}{:>17}{:>7}  {}\n", "torsional stress MPa", "",
-                     "static", "oscillating", "largest", "nominal T r/I_p", "K_ts", "where");
-  for (const auto& e : elements) {
-    if (!e.largest) continue;
-    const Course& stress = e.largest->stress;
-    out << fmt::format("  {:<40}{:>10.3g}{:>12.3g}{:>10.3g}{:>17.3g}{:>7.2f}  {}\n", "largest near " + e.port,
-                       stress.mean / 1e6, stress.amplitude / 1e6, stress.largest / 1e6,
-                       e.largest->nominal.largest / 1e6, e.largest->factor,
-                       place_text(e.largest->ring.feature, e.largest->ring.z_m));
-  }
-}
-
-summary::Json start_figure(const StartUpFigure& of, const char* unit) {
-  auto json = figure(of.largest, unit);
-  json["time_s"] = number(of.time_s);
-  json["steady"] = number(of.steady);
-  json["factor"] = number_or_none(of.steady > 0 ? of.factor() : NAN);
-  return json;
-}
-
-void print_figure(std::ostream& out, const std::string& name, const StartUpFigure& of, double unit,
-                  const std::string& where) {
-  out << fmt::format("  {:<40}{:>12.4g}{:>10.4g}{:>12.4g}{:>9}  {}\n", name, of.largest / unit, of.time_s,
-                     of.steady / unit, of.steady > 0 ? fixed(of.factor(), 2) : "-", where);
+Json section_rows(const FieldTable<SectionRow>& fields, const BodyAnalysis& analysis) {
+  auto rows = Json::array();
+  for (const auto& section : analysis.diagrams->sections)
+    rows.push_back(whole_row(fields, SectionRow{section, analysis.peak.instant}));
+  return rows;
 }
 
 }  // namespace
 
-void print_element_torsion(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
-  const auto elements = element_torsion(analysis, report.loads, course_of_loads(report.scene, report.loads));
-  if (elements.empty()) return;
-  print_torques(out, elements);
-  print_stresses(out, elements);
+ShownRows shown_seats(const Json& seats) {
+  return shown_named_rows("seat", fields_of(seat_fields()), seats);
 }
 
-summary::Json element_torsion_json(const RunReport& report, const BodyAnalysis& analysis) {
-  summary::Json json;
-  for (const auto& e : element_torsion(analysis, report.loads, course_of_loads(report.scene, report.loads))) {
-    auto& entry = json[e.element];
-    entry = object({{"port", e.port},
-                    {"torque", course_json(e.torque, "N m")},
-                    {"torque_by_stress", course_json(e.by_stress, "N m")},
-                    {"largest_difference", figure(e.largest_difference_Nm, "N m")},
-                    {"nominal_stress_at_port", course_json(e.nominal, "Pa")}});
-    if (!e.largest) continue;
-    entry["largest_stress"] = course_json(e.largest->stress, "Pa");
-    entry["largest_stress"]["feature"] = e.largest->ring.feature;
-    entry["largest_stress"]["z_m"] = e.largest->ring.z_m;
-    entry["largest_stress"]["nominal"] = course_json(e.largest->nominal, "Pa");
-    entry["largest_stress"]["factor"] = number(e.largest->factor);
+Json seats_json(const Diagrams& diagrams) {
+  const auto fields = seat_fields();
+  Json json;
+  for (const auto& seat : diagrams.seats) json[seat.port] = summary_row(fields, seat);
+  return json;
+}
+
+void write_diagrams(const std::filesystem::path& file, const BodyAnalysis& analysis) {
+  const auto fields = section_fields();
+  write_csv(file, csv_columns(fields_of(fields), section_rows(fields, analysis)));
+}
+
+void write_torsion(const std::filesystem::path& directory, const kinetics::LoadHistory& loads,
+                   const BodyAnalysis& analysis) {
+  const auto fields = torsion_fields();
+  write_csv(directory / "torsion.csv", csv_columns(fields_of(fields), section_rows(fields, analysis)));
+  const auto& sections = analysis.diagrams->sections;
+  std::vector<CsvColumn> cycle{series("time", "s", loads.time_s), series("phi", "rad", loads.phi_rad)};
+  for (std::size_t begin = 0; begin < sections.size();) {
+    std::size_t end = begin;
+    while (end < sections.size() && sections[end].plane.segment == sections[begin].plane.segment) ++end;
+    const auto& middle = sections[(begin + end) / 2];
+    cycle.push_back(series(middle.plane.segment + ".torque", "N m", middle.by_stress.row(5).transpose()));
+    cycle.push_back(series(middle.plane.segment + ".torsional_stress", "Pa", middle.torsion_Pa));
+    begin = end;
   }
+  write_csv(directory / "torsion_cycle.csv", cycle);
+}
+
+ShownRows shown_element_torques(const Json& elements) {
+  return shown_named_rows("element", fields_of(element_torque_fields()), elements);
+}
+
+ShownRows shown_element_stresses(const Json& elements) {
+  return shown_named_rows("element", fields_of(element_stress_fields()), elements);
+}
+
+void print_element_torsion(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+  const auto elements = element_torsion_json(report, analysis);
+  print_rows(out, "torque on the shaft", shown_element_torques(elements));
+  print_rows(out, "torsional stress near", shown_element_stresses(elements));
+}
+
+Json element_torsion_json(const RunReport& report, const BodyAnalysis& analysis) {
+  const auto fields = joined(element_torque_fields(), element_stress_fields());
+  Json json;
+  for (const auto& e : element_torsion(analysis, report.loads, course_of_loads(report.scene, report.loads)))
+    json[e.element] = summary_row(fields, e);
   return json;
 }
 
@@ -117,49 +99,42 @@ void write_element_torsion(const std::filesystem::path& file, const kinetics::Lo
   write_csv(file, columns);
 }
 
-void print_start_up(std::ostream& out, const BodyAnalysis& analysis) {
-  if (!analysis.start_up) return;
-  const auto& start = *analysis.start_up;
-  out << fmt::format("\n  {:<40}{:>12}{:>10}{:>12}{:>9}\n",
-                     fmt::format("start-up, {:.4g} s in {} instants", start.time_s[start.time_s.size() - 1],
-                                 start.time_s.size()),
-                     "largest", "at s", "steady", "factor");
-  const std::string error = std::isfinite(start.error_share)
-                                ? " +- " + fixed(start.error_share * start.von_mises.largest / 1e6, 1)
-                                : ", error not known";
-  print_figure(out, "von Mises stress MPa", start.von_mises, 1e6,
-               fmt::format("{}{}, safety against yield {}", start.feature, error, fixed(start.safety, 2)));
-  if (start.ring)
-    print_figure(out, "torsional stress MPa", start.ring->stress, 1e6,
-                 place_text(start.ring->feature, start.ring->z_m));
-  for (const auto& e : start.elements)
-    print_figure(out, "torque of " + e.element + " N m", e.torque, 1, "at " + e.port);
+ShownRows shown_start_up(const Json& start_up) {
+  Json rows;
+  rows["von Mises stress"] = start_up.at("peak_von_mises");
+  if (start_up.contains("torsional_stress")) rows["torsional stress"] = start_up.at("torsional_stress");
+  if (start_up.contains("elements"))
+    for (const auto& [element, row] : start_up.at("elements").items()) rows["torque of " + element] = row;
+  return shown_named_rows("", fields_of(start_up_fields()), rows);
 }
 
-summary::Json start_up_json(const BodyAnalysis& analysis) {
+void print_start_up(std::ostream& out, const BodyAnalysis& analysis) {
+  if (!analysis.start_up) return;
+  const auto& time_s = analysis.start_up->time_s;
+  print_rows(out, fmt::format("start-up, {:.4g} s in {} instants", time_s[time_s.size() - 1], time_s.size()),
+             shown_start_up(start_up_json(analysis)));
+}
+
+Json start_up_json(const BodyAnalysis& analysis) {
   const auto& start = *analysis.start_up;
-  auto json = object(
-      {{"duration", figure(start.time_s[start.time_s.size() - 1], "s")},
+  const auto fields = start_up_fields();
+  StartUpRow peak{start.von_mises, "Pa"};
+  peak.peak = &start;
+  auto json = summary::object(
+      {{"duration", summary::figure(start.time_s[start.time_s.size() - 1], "s")},
        {"instants", start.time_s.size()},
-       {"drive_speed_at_end", figure(start.drive_speed_rad_s[start.drive_speed_rad_s.size() - 1], "rad/s")},
-       {"peak_von_mises", start_figure(start.von_mises, "Pa")}});
-  auto& peak = json["peak_von_mises"];
-  peak["feature"] = start.feature;
-  peak["place"] = to_string(start.place);
-  peak["position_m"] = start.position_m;
-  peak["safety_against_yield"] = number_or_none(start.safety);
-  peak["error"] = number_or_none(start.error_share * start.von_mises.largest);
-  for (std::size_t e = 0; e < start.effects.size(); ++e)
-    peak["effect_share"][start.effects[e]] = number(start.effect_share[e]);
+       {"drive_speed_at_end",
+        summary::figure(start.drive_speed_rad_s[start.drive_speed_rad_s.size() - 1], "rad/s")},
+       {"peak_von_mises", summary_row(joined(fields, start_up_peak_fields()), peak)}});
   if (start.ring) {
-    auto& torsion = json["torsional_stress"];
-    torsion = start_figure(start.ring->stress, "Pa");
-    torsion["feature"] = start.ring->feature;
-    torsion["z_m"] = start.ring->z_m;
+    StartUpRow ring{start.ring->stress, "Pa"};
+    ring.ring = &*start.ring;
+    json["torsional_stress"] = summary_row(fields, ring);
   }
   for (const auto& e : start.elements) {
-    json["elements"][e.element] = start_figure(e.torque, "N m");
-    json["elements"][e.element]["port"] = e.port;
+    StartUpRow torque{e.torque, "N m"};
+    torque.element = &e;
+    json["elements"][e.element] = summary_row(fields, torque);
   }
   return json;
 }

@@ -13,7 +13,7 @@
 #include "pipelines/common/several_ranks.h"
 #include "pipelines/exports/vtk_files.h"
 #include "pipelines/life/body_fatigue.h"
-#include "pipelines/report_parts/moment.h"
+#include "pipelines/result_fields/moment.h"
 
 namespace pipelines {
 namespace {

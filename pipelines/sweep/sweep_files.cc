@@ -7,9 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "pipelines/fields/shown_unit.h"
 #include "pipelines/files/atomic_file.h"
 #include "pipelines/files/csv.h"
 #include "pipelines/files/hdf5_file.h"
+#include "pipelines/result_fields/zone_fields.h"
 
 namespace pipelines {
 namespace {
@@ -97,6 +99,23 @@ std::vector<CsvColumn> key_columns(const SweepPlan& plan, const std::vector<std:
   return columns;
 }
 
+/// A zone at a point, with the number that it has at all points.
+struct FollowedZone {
+  const SweptZone& zone;
+  int number;
+};
+
+FieldTable<FollowedZone> followed_zone_fields() {
+  const FieldTable<FollowedZone> name{
+      {"body", quantities::text, "name of the body", [](const auto& z) { return z.zone.body; }},
+      {"zone", quantities::count, "number within the body", [](const auto& z) { return z.number; }}};
+  const FieldTable<FollowedZone> instant{
+      {"instant", quantities::count, "of the peak, from 0", [](const auto& z) { return z.zone.instant; }}};
+  const auto figures = fields_of_part<FollowedZone>(
+      zone_figure_fields(), [](const auto& z) -> const ZoneFigures& { return z.zone; });
+  return joined(joined(name, figures), instant);
+}
+
 }  // namespace
 
 void write_sweep_csv(const std::filesystem::path& file, const SweepPlan& plan,
@@ -106,40 +125,23 @@ void write_sweep_csv(const std::filesystem::path& file, const SweepPlan& plan,
   auto columns = key_columns(plan, all);
   columns.push_back({"refused", "", refusals(rows)});
   for (auto& column : figure_columns(rows))
-    columns.push_back({column.name, column.unit, std::move(column.values)});
+    columns.push_back(in_shown_unit({column.name, column.unit, std::move(column.values)}));
   for (auto& [name, texts] : text_columns(rows)) columns.push_back({name, "", std::move(texts)});
   write_csv(file, columns, n_threads);
 }
 
 void write_sweep_zones(const std::filesystem::path& file, const SweepPlan& plan,
                        const std::vector<SweepRow>& rows, const std::vector<std::vector<int>>& numbers) {
+  const auto fields = followed_zone_fields();
   std::vector<std::size_t> points;
-  std::vector<const SweptZone*> zones;
-  std::vector<std::int64_t> followed;
+  auto zones = Json::array();
   for (std::size_t p = 0; p < rows.size(); ++p)
     for (std::size_t z = 0; z < rows[p].zones.size(); ++z) {
       points.push_back(p);
-      zones.push_back(&rows[p].zones[z]);
-      followed.push_back(numbers[p][z]);
+      zones.push_back(whole_row(fields, {rows[p].zones[z], numbers[p][z]}));
     }
   auto columns = key_columns(plan, points);
-  const auto add = [&](const std::string& name, const std::string& unit, const auto& of) {
-    std::vector<std::decay_t<decltype(of(SweptZone()))>> values;
-    for (const auto* zone : zones) values.push_back(of(*zone));
-    columns.push_back({name, unit, std::move(values)});
-  };
-  add("body", "", [](const SweptZone& z) { return z.body; });
-  columns.push_back({"zone", "", followed});
-  add("feature", "", [](const SweptZone& z) { return z.feature; });
-  add("place", "", [](const SweptZone& z) { return z.place; });
-  add("peak_von_mises", "Pa", [](const SweptZone& z) { return z.peak_Pa; });
-  add("peak_error", "Pa", [](const SweptZone& z) { return z.error_Pa; });
-  add("safety_against_yield", "", [](const SweptZone& z) { return z.safety; });
-  add("instant", "", [](const SweptZone& z) { return z.instant; });
-  for (std::size_t c = 0; c < 3; ++c)
-    add(std::string(1, "xyz"[c]), "m", [&](const SweptZone& z) { return z.peak_m[c]; });
-  add("volume", "m3", [](const SweptZone& z) { return z.volume_m3; });
-  add("nodes", "", [](const SweptZone& z) { return z.n_nodes; });
+  for (auto& column : csv_columns(fields_of(fields), zones)) columns.push_back(std::move(column));
   write_csv(file, columns);
 }
 

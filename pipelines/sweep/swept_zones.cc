@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 
-#include "pipelines/analysis/governing_stress.h"
 #include "pipelines/sweep/sweep_row.h"
 #include "pipelines/variations/sweep_points.h"
 
@@ -115,19 +114,9 @@ void number_by_peak(const std::vector<SweepRow>& rows, std::vector<std::vector<i
 std::vector<SweptZone> swept_zones(const BodyAnalysis& analysis) {
   std::vector<SweptZone> result;
   for (const auto& zone : analysis.zones.zones) {
-    SweptZone swept;
-    swept.body = analysis.scene.name;
-    swept.feature = zone.feature;
-    swept.place = to_string(zone.place);
-    swept.peak_Pa = zone.peak_Pa;
-    swept.error_Pa = error_Pa(analysis, zone).value_or(std::numeric_limits<double>::quiet_NaN());
-    swept.safety = zone.safety;
-    swept.peak_m = zone.peak_m;
+    SweptZone swept{figures_of(analysis, zone), analysis.scene.name, {}, {}, zone.instant};
     swept.low_m.fill(std::numeric_limits<double>::max());
     swept.high_m.fill(std::numeric_limits<double>::lowest());
-    swept.volume_m3 = zone.volume_m3;
-    swept.instant = zone.instant;
-    swept.n_nodes = std::int64_t(zone.n_nodes);
     result.push_back(std::move(swept));
   }
   const auto& of_node = analysis.zones.zone_of_node;

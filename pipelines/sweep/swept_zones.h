@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipelines/analysis/body_analysis.h"
+#include "pipelines/result_fields/zone_text.h"
 
 namespace pipelines {
 
@@ -15,15 +16,10 @@ struct SweepPlan;
 struct SweepRow;
 
 /// A zone (zones.h) at one point, without its nodes.
-struct SweptZone {
-  std::string body, feature, place;
-  double peak_Pa = 0;
-  double error_Pa = 0;  ///< of the peak; NaN: not estimated
-  double safety = 0;    ///< yield strength / peak
-  std::array<double, 3> peak_m{};
+struct SweptZone : ZoneFigures {
+  std::string body;
   std::array<double, 3> low_m{}, high_m{};  ///< the box around its nodes
-  double volume_m3 = 0;
-  std::int64_t instant = 0, n_nodes = 0;
+  std::int64_t instant = 0;                 ///< of the peak
 };
 
 /// Descending peak.

@@ -9,6 +9,7 @@
 
 #include "pipelines/common/process_limits.h"
 #include "pipelines/drawing/chart.h"
+#include "pipelines/fields/shown_unit.h"
 #include "pipelines/sweep_command/sweep_table.h"
 
 namespace pipelines {
@@ -22,13 +23,13 @@ LineChart line_chart(const std::string& title, const SweepPlan& plan, const std:
   chart.title = title;
   const auto& variation = plan.variations[k];
   chart.x = {with_unit(variation.key, variation.unit), variation.range && variation.range->is_logarithmic};
-  chart.y.title = shown_unit(unit_of(rows, figures.front()));
+  chart.y.title = shown_unit(unit_of(rows, figures.front())).unit;
   constexpr std::size_t most_curves = 6;
   for (const auto& figure : figures) {
-    const double scale = scale_of(unit_of(rows, figure));
+    const double one = shown_unit(unit_of(rows, figure)).one;
     std::map<std::vector<std::string>, std::size_t> curves;  // by the other keys' values
     for (std::size_t p = 0; p < rows.size(); ++p) {
-      const double x = plan.points[p].numbers[k], y = scale * rows[p].figure(figure);
+      const double x = plan.points[p].numbers[k], y = rows[p].figure(figure) / one;
       if (std::isnan(x) || std::isnan(y)) continue;
       std::vector<std::string> others;
       if (design == SweepDesign::grid)
@@ -45,7 +46,7 @@ LineChart line_chart(const std::string& title, const SweepPlan& plan, const std:
       auto& drawn = chart.curves[curve->second];
       drawn.x.push_back(x);
       drawn.y.push_back(y);
-      if (const double error = scale * rows[p].figure(figure + ".error"); !std::isnan(error))
+      if (const double error = rows[p].figure(figure + ".error") / one; !std::isnan(error))
         drawn.error.push_back(error);
     }
   }
@@ -57,11 +58,11 @@ HeatMap heat_map(const std::string& title, const SweepPlan& plan, const std::vec
   HeatMap map;
   const auto& along = plan.variations[1];
   const auto& up = plan.variations[0];
-  const auto unit = unit_of(rows, figure);
-  map.title = title + ": " + with_unit(figure, shown_unit(unit));
+  const auto shown = shown_unit(unit_of(rows, figure));
+  map.title = title + ": " + with_unit(figure, shown.unit);
   map.x_title = with_unit(along.key, along.unit);
   map.y_title = with_unit(up.key, up.unit);
-  map.figure_title = with_unit(figure, shown_unit(unit));
+  map.figure_title = with_unit(figure, shown.unit);
   const auto labels = [](const Variation& variation) {
     std::vector<std::string> texts;
     for (const double number : variation.numbers) texts.push_back(fmt::format("{:.4g}", number));
@@ -69,7 +70,7 @@ HeatMap heat_map(const std::string& title, const SweepPlan& plan, const std::vec
   };
   map.x_values = labels(along);
   map.y_values = labels(up);
-  for (const auto& row : rows) map.figures.push_back(scale_of(unit) * row.figure(figure));
+  for (const auto& row : rows) map.figures.push_back(row.figure(figure) / shown.one);
   return map;
 }
 

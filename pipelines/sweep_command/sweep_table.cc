@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "pipelines/common/errors.h"
+#include "pipelines/fields/shown_unit.h"
 #include "pipelines/names/nearest_name.h"
 
 namespace pipelines {
@@ -121,12 +122,6 @@ std::string unit_of(const std::vector<SweepRow>& rows, const std::string& figure
   return "";
 }
 
-double scale_of(const std::string& unit) {
-  return unit == "Pa" ? 1e-6 : 1;
-}
-std::string shown_unit(const std::string& unit) {
-  return unit == "Pa" ? "MPa" : unit;
-}
 std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + " [" + unit + "]";
 }
@@ -142,7 +137,7 @@ void print_points(std::ostream& out, const SweepPlan& plan, const std::vector<Sw
     has_error.push_back(std::any_of(rows.begin(), rows.end(), [&](const SweepRow& row) {
       return !std::isnan(row.figure(figure + ".error"));
     }));
-    lines.front().push_back(with_unit(figure, shown_unit(unit_of(rows, figure))));
+    lines.front().push_back(with_unit(figure, shown_unit(unit_of(rows, figure)).unit));
     if (has_error.back()) lines.front().push_back("+-");
   }
   for (std::size_t p = 0; p < rows.size() && p < most_lines; ++p) {
@@ -153,10 +148,10 @@ void print_points(std::ostream& out, const SweepPlan& plan, const std::vector<Sw
       continue;
     }
     for (std::size_t f = 0; f < figures.size(); ++f) {
-      const double scale = scale_of(unit_of(rows, figures[f]));
-      lines.back().push_back(fmt::format("{:.6g}", scale * rows[p].figure(figures[f])));
+      const double one = shown_unit(unit_of(rows, figures[f])).one;
+      lines.back().push_back(fmt::format("{:.6g}", rows[p].figure(figures[f]) / one));
       if (has_error[f])
-        lines.back().push_back(fmt::format("{:.2g}", scale * rows[p].figure(figures[f] + ".error")));
+        lines.back().push_back(fmt::format("{:.2g}", rows[p].figure(figures[f] + ".error") / one));
     }
   }
   std::vector<std::size_t> widths;
@@ -182,9 +177,9 @@ void print_extremes(std::ostream& out, const SweepCommandOptions& options, const
       if (const double value = rows[p].figure(figure); !std::isnan(value))
         if (!largest || value > rows[*largest].figure(figure)) largest = p;
     if (!largest) continue;
-    const auto unit = unit_of(rows, figure);
+    const auto shown = shown_unit(unit_of(rows, figure));
     out << fmt::format("\n  {} is largest at point {}: {:.6g} {}\n", figure, *largest + 1,
-                       scale_of(unit) * rows[*largest].figure(figure), shown_unit(unit));
+                       rows[*largest].figure(figure) / shown.one, shown.unit);
     std::string settings;
     for (const auto* all : {&options.settings, &plan.points[*largest].settings})
       for (const auto& setting : *all) settings += " --set " + quoted(setting);

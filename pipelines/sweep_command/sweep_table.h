@@ -20,11 +20,8 @@ bool is_governing(const std::string& figure);
 std::vector<std::string> shown_figures(const std::vector<std::string>& named,
                                        const std::vector<SweepRow>& rows);
 
-/// Of the first row that has the figure; empty if none has it.
+/// In SI, of the first row that has the figure; empty if none has it.
 std::string unit_of(const std::vector<SweepRow>& rows, const std::string& figure);
-/// Stresses in MPa, all else in SI.
-double scale_of(const std::string& unit);
-std::string shown_unit(const std::string& unit);
 std::string with_unit(const std::string& name, const std::string& unit);
 
 /// Keys that change no figure of any two points that differ by them alone; none of a Latin hypercube's.

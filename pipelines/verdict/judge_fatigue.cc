@@ -8,8 +8,8 @@
 #include "pipelines/analysis/error_text.h"
 #include "pipelines/life/body_fatigue.h"
 #include "pipelines/life/duty_result.h"
-#include "pipelines/report_parts/fatigue_report.h"
-#include "pipelines/report_parts/zone_text.h"
+#include "pipelines/result_fields/life_text.h"
+#include "pipelines/result_fields/zone_text.h"
 #include "pipelines/verdict/findings.h"
 
 namespace pipelines {

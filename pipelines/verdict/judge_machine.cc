@@ -8,7 +8,7 @@
 #include "pipelines/life/duty_result.h"
 #include "pipelines/machine_reports/torsion_report.h"
 #include "pipelines/names/name_lists.h"
-#include "pipelines/report_parts/fatigue_report.h"
+#include "pipelines/result_fields/life_text.h"
 #include "pipelines/verdict/findings.h"
 
 namespace pipelines {

@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "pipelines/report_parts/json_values.h"
+#include "pipelines/fields/json_values.h"
 #include "pipelines/verdict/verdict.h"
 
 namespace pipelines {

@@ -30,14 +30,16 @@ double largest_of(const Numbers& values) {
   return largest;
 }
 
-/// A series at every instant against a formula of phi and delta.
+/// A series at every instant against a formula of phi and delta, which follow from the time: of angles the
+/// file has twelve digits, too few for these after 20 turns.
 template <typename Formula>
 void expect_series(const Columns& columns, const std::string& name, Formula formula) {
   ASSERT_TRUE(columns.count(name)) << name;
-  const auto &found = columns.at(name), &phi = columns.at("phi"), &time = columns.at("time");
+  const auto &found = columns.at(name), &time = columns.at("time");
   const double scale = largest_of(found);
   for (std::size_t i = 0; i < found.size(); ++i)
-    EXPECT_NEAR(found[i], formula(phi[i], delta0 - omega_r * time[i]), 1e-11 * scale) << name << ' ' << i;
+    EXPECT_NEAR(found[i], formula(omega_e * time[i], delta0 - omega_r * time[i]), 1e-11 * scale)
+        << name << ' ' << i;
 }
 
 /// Derivative in time by five points around an instant.
@@ -50,6 +52,7 @@ double derivative(const Numbers& values, std::size_t i, double step_s) {
 TEST(VibratoryEquations, Kinematics) {
   const auto q = published();
   const double a_C = omega_e * omega_e * ecc, a_OC = omega_r * omega_r * r, a_k = 2 * omega_e * omega_r * r;
+  expect_series(q, "phi", [](double phi, double) { return phi; });
   expect_series(q, "C.x", [](double phi, double) { return ecc * std::cos(phi); });   // (1)
   expect_series(q, "C.y", [](double phi, double) { return -ecc * std::sin(phi); });  // (1)
   expect_series(q, "O.x", [](double phi, double delta) {                             // (4)
@@ -137,7 +140,7 @@ TEST(VibratoryEquations, Forces) {
   expect_series(q, "spring_force_from_moments", from_moments);  // (59)
   // (60) beside its poles, where it is the principal value.
   for (std::size_t i = 0; i < q.at("phi").size(); ++i) {
-    const double phi = q.at("phi")[i], delta = delta0 - omega_r * q.at("time")[i];
+    const double phi = omega_e * q.at("time")[i], delta = delta0 - omega_r * q.at("time")[i];
     if (std::abs(std::sin(phi)) < 1e-6) continue;
     const double wanted = from_moments(phi, delta) / (ecc * std::sin(phi));
     EXPECT_NEAR(q.at("K_star")[i], wanted, 1e-9 * std::abs(wanted)) << i;
@@ -199,12 +202,13 @@ TEST(VibratoryEquations, ConsistentMotionMakesTheForces) {
       }
     }
   const double scale = largest_of(q.at("charge_on_wall.fx"));
+  constexpr double twelve_digits_m = 1e-12;  // of lengths below 1 m, and of chi times r
   for (std::size_t i = 0; i < q.at("time").size(); ++i) {
     EXPECT_NEAR(q.at("charge_on_wall.fx")[i], -m * q.at("O.ax")[i], 1e-11 * scale);
     EXPECT_NEAR(q.at("charge_on_wall.fy")[i], -m * (q.at("O.ay")[i] + g), 1e-11 * scale);
     // DE and OD without errata 3 and 4: the charge's centre from the moving pivot at rest.
-    EXPECT_NEAR(q.at("charge_at.x")[i], JE + r * std::cos(q.at("chi")[i]), 1e-14);
-    EXPECT_NEAR(q.at("charge_at.y")[i], 0.04 - r * std::sin(q.at("chi")[i]), 1e-14);
+    EXPECT_NEAR(q.at("charge_at.x")[i], JE + r * std::cos(q.at("chi")[i]), twelve_digits_m);
+    EXPECT_NEAR(q.at("charge_at.y")[i], 0.04 - r * std::sin(q.at("chi")[i]), twelve_digits_m);
   }
   // Without pitch and lag the motion is that of (1) and (4).
   const auto held =
@@ -216,6 +220,6 @@ TEST(VibratoryEquations, ConsistentMotionMakesTheForces) {
     const auto &found = held.at(name), &wanted = q_published.at(name);
     const double of_found = largest_of(found);
     for (std::size_t i = 0; i < held.at("time").size(); ++i)
-      EXPECT_NEAR(found[i], wanted[i], 1e-12 * of_found) << name;
+      EXPECT_NEAR(found[i], wanted[i], 1e-11 * of_found) << name;
   }
 }

@@ -129,7 +129,7 @@ TEST(ShaftTorsion, ASwitchedTorqueCountsTwice) {
   for (const char* figure : {"peak_von_mises", "torsional_stress"})
     EXPECT_NEAR(start[figure]["factor"].get<double>(), 2, 2 * tolerance) << figure;
   // The stress follows the torque: at every instant the share that it has at the crest.
-  const auto course = csv(directory / "out/shaft/start_up.csv");
+  const auto course = csv_in_si(directory / "out/shaft/start_up.csv");
   const auto& torque = course.at("hub.torque");
   const auto& stress = course.at("torsional_stress");
   ASSERT_EQ(torque.size(), 1001u);

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <map>
 
+#include "tests/cases/program/field_tables.h"
 #include "tests/cases/program/program.h"
 #include "tests/cases/program/step_shafts.h"
 
@@ -75,7 +76,7 @@ thickness = "12 mm"
   for (const auto& [z_m, value_Pa] : upright_Pa) mean_Pa += value_Pa / 4;
   EXPECT_NEAR(mean_Pa, bending_Pa, 0.05 * bending_Pa);
   EXPECT_GT(std::next(upright_Pa.begin())->second, upright_Pa.begin()->second) << "the middle has more";
-  EXPECT_TRUE(fs::exists(directory / "r/part/hot_spots.csv"));
+  EXPECT_EQ(expect_fields_of_readme(directory / "r").count("hot_spots.csv"), 1u);
 }
 
 // A part that nothing was said of is told how: the table that it prints is a weld of the part.

@@ -139,23 +139,26 @@ TEST(ZoneCauses, TheTreeHoldsTheZonesAndTheirParts) {
   std::istringstream text(results_test::bytes(directory / "out/shaft/zone_tree.csv"));
   std::string line;
   std::getline(text, line);
-  EXPECT_EQ(
-      line,
-      "zone,level [Pa],feature,place,peak_von_mises [Pa],turn,drive_angle [rad],x [m],y [m],z [m],nodes");
+  EXPECT_EQ(line,
+            "zone,level [MPa],feature,place,peak_von_mises [MPa],turn,drive_angle [deg],x [mm],y [mm],z "
+            "[mm],nodes");
   std::size_t row = 0;
-  const double body_peak = table.at("peak_von_mises")[0];
-  const auto next = [&](const std::string& number, double level, double peak, double nodes) {
+  const double body_peak = zones[0]["peak_von_mises_Pa"], MPa = 1e6, digits = 1e-11;
+  const auto next = [&](const std::string& number, double level_Pa, double peak_Pa, double nodes) {
     ASSERT_TRUE(std::getline(text, line));
     EXPECT_EQ(line.substr(0, line.find(',')), number);
-    EXPECT_EQ(tree.at("level")[row], level) << number;
-    EXPECT_EQ(tree.at("peak_von_mises")[row], peak) << number;
+    EXPECT_NEAR(tree.at("level")[row] * MPa, level_Pa, digits * level_Pa) << number;
+    EXPECT_NEAR(tree.at("peak_von_mises")[row] * MPa, peak_Pa, digits * peak_Pa) << number;
     EXPECT_EQ(tree.at("nodes")[row], nodes) << number;
     ++row;
   };
   std::size_t n_parts = 0;
   for (std::size_t z = 0; z < zones.size(); ++z) {
+    EXPECT_EQ(zones[z]["zone"], z + 1);
+    EXPECT_EQ(table.at("zone")[z], double(z + 1));
+    EXPECT_EQ(table.at("peak_von_mises")[z], tree.at("peak_von_mises")[row]);
     next(std::to_string(z + 1), json["bodies"]["shaft"]["zone_level"]["value"].get<double>(),
-         table.at("peak_von_mises")[z], table.at("nodes")[z]);
+         zones[z]["peak_von_mises_Pa"].get<double>(), table.at("nodes")[z]);
     if (!zones[z].contains("parts")) continue;
     for (const auto& part : zones[z]["parts"]) {
       const auto number = part["zone"].get<std::string>();

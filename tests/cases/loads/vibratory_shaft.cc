@@ -68,7 +68,7 @@ TEST(VibratoryShaft, AgreesWithStaticsAndTheHandFigures) {
 
   // The diagrams by statics against textbook statics: the coupling's whole torque up to the eccentric seat,
   // none but the debalance's m3 g KE / 2 = 0.196 N m beyond; the bending moment largest at the seat.
-  const auto diagrams = csv(directory / "out/shaft/diagrams.csv");
+  const auto diagrams = csv_in_si(directory / "out/shaft/diagrams.csv");
   for (std::size_t i = 0; i < diagrams.at("z").size(); ++i) {
     const double z = diagrams.at("z")[i];
     if (z > 0.04 && z < 0.165) {

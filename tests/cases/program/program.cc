@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <xxhash.h>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -220,6 +221,19 @@ std::map<std::string, std::vector<double>> csv(const fs::path& file) {
       columns[name].push_back(std::strtod(cell.c_str(), nullptr));
     }
   }
+  return columns;
+}
+
+std::map<std::string, std::vector<double>> csv_in_si(const fs::path& file) {
+  const std::map<std::string, double> in_si{{"MPa", 1e6}, {"mm", 1e-3}, {"mm3", 1e-9}, {"deg", M_PI / 180}};
+  auto columns = csv(file);
+  std::ifstream in(file);
+  std::string line, title;
+  std::getline(in, line);
+  for (std::istringstream header(line); std::getline(header, title, ',');)
+    if (const auto open = title.find(" ["); open != std::string::npos)
+      if (const auto unit = in_si.find(title.substr(open + 2, title.size() - open - 3)); unit != in_si.end())
+        for (double& value : columns[title.substr(0, open)]) value *= unit->second;
   return columns;
 }
 

@@ -112,4 +112,7 @@ nlohmann::json json_of(const fs::path& directory, const std::string& arguments);
 /// The columns of a CSV file by the names in its header, without the units.
 std::map<std::string, std::vector<double>> csv(const fs::path& file);
 
+/// The same in SI, by the units in the header.
+std::map<std::string, std::vector<double>> csv_in_si(const fs::path& file);
+
 }  // namespace cases

@@ -8,6 +8,7 @@
 
 #include "pipelines/life/life_certainty.h"
 #include "pipelines/report_parts/fatigue_report.h"
+#include "pipelines/result_fields/life_text.h"
 
 using namespace pipelines;
 

@@ -7,6 +7,7 @@
 
 #include "pipelines/life/duty_fatigue.h"
 #include "pipelines/report_parts/fatigue_report.h"
+#include "pipelines/result_fields/life_text.h"
 #include "tests/unit/pipelines/examples/row_of_cells.h"
 
 namespace {

@@ -1,6 +1,8 @@
-/// What brings a zone, in words: for the table on the terminal and the page.
+/// Zones in words and figures: for terminal, page and sweeps.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,15 +25,24 @@ std::vector<NamedShare> group_shares(const std::vector<std::string>& effects,
 /// is left, where that is not below it. Empty without shares.
 std::string largest_shares(std::vector<NamedShare> shares);
 
-/// "by belt 83 %, drive 17 %; amplitude 41.9 MPa by belt 100 %", by groups, and where fatigue is asked for
-/// "; damage by belt 100 %". Empty where there is one group
-/// only, or nothing known of the zone.
-/// @param zone  index
-std::string causes_text(const BodyAnalysis& analysis, std::size_t zone);
+/// A zone as tables have it, without its moment.
+struct ZoneFigures {
+  std::string feature, place;
+  double peak_Pa = 0;
+  double error_Pa = 0;  ///< of the peak; NaN: not estimated
+  double safety = 0;    ///< yield strength / peak
+  std::array<double, 3> peak_m{};
+  double volume_m3 = 0;
+  std::int64_t n_nodes = 0;
+};
+ZoneFigures figures_of(const BodyAnalysis& analysis, const Zone& zone);
 
 /// A zone's volume and what it may be off by, in mm3 with the digits that are known.
 struct VolumeText {
   std::string volume, error;  ///< "536", "74"; "129", "up to 922"
+
+  /// "536 +- 74", "129, up to 922"
+  std::string text() const;
 };
 
 /// An error that reaches the volume leaves no zone at all open, and no volume is below zero: then the largest

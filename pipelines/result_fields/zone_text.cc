@@ -1,14 +1,14 @@
-#include "pipelines/report_parts/zone_text.h"
+#include "pipelines/result_fields/zone_text.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "pipelines/analysis/error_text.h"
-#include "pipelines/life/body_fatigue.h"
+#include "pipelines/analysis/governing_stress.h"
 #include "pipelines/names/name_lists.h"
-#include "pipelines/report_parts/fatigue_report.h"
 #include "pipelines/scene_values/effect_groups.h"
 #include "pipelines/superposition/zone_parts.h"
 
@@ -63,25 +63,11 @@ std::string largest_shares(std::vector<NamedShare> shares) {
   return text;
 }
 
-std::string causes_text(const BodyAnalysis& analysis, std::size_t zone) {
-  if (zone >= analysis.zone_causes.size()) return {};
-  const auto& effects = analysis.loads.history.effects;
-  const auto& causes = analysis.zone_causes[zone];
-  const auto of_peak = group_shares(effects, causes.peak.effects);
-  if (of_peak.size() < 2) return {};
-  std::string text = "by " + largest_shares(of_peak);
-  if (causes.amplitude.effects.empty()) return text + "; constant over the cycle";
-  text += "; amplitude " + fixed(causes.cycle.amplitude_Pa / 1e6, 1) + " MPa by " +
-          largest_shares(group_shares(effects, causes.amplitude.effects));
-  if (!analysis.fatigue || zone >= analysis.fatigue->zones.size()) return text;
-  const auto& damage = analysis.fatigue->zones[zone];
-  if (!damage.is_on_surface) return text + "; inside the body, where no fatigue is judged";
-  if (!(damage.damage_per_turn > 0)) {
-    const auto& range = damage.certainty.range;
-    if (range && !range->least_s) return text + "; no damage";
-    return text + "; no damage by itself, " + life_text(damage.life_s, damage.certainty);
-  }
-  return text + "; damage by " + largest_shares(group_shares(effects, damage.shares.effects));
+ZoneFigures figures_of(const BodyAnalysis& analysis, const Zone& zone) {
+  return {zone.feature,   to_string(zone.place),
+          zone.peak_Pa,   error_Pa(analysis, zone).value_or(std::numeric_limits<double>::quiet_NaN()),
+          zone.safety,    zone.peak_m,
+          zone.volume_m3, std::int64_t(zone.n_nodes)};
 }
 
 VolumeText volume_text(double volume_m3, const std::optional<double>& error_m3) {
@@ -95,6 +81,12 @@ VolumeText volume_text(double volume_m3, const std::optional<double>& error_m3) 
             "up to " + fixed(volume + error, decimals_of(volume + error))};
   const int decimals = decimals_of(error);
   return {fixed(volume, decimals), fixed(error, decimals)};
+}
+
+std::string VolumeText::text() const {
+  if (volume == "-") return volume;
+  if (error == "-") return volume + " +- ?";
+  return volume + (error.find("up to") == 0 ? ", " : " +- ") + error;
 }
 
 std::string parts_text(const Zone& zone) {

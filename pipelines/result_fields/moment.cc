@@ -1,4 +1,4 @@
-#include "pipelines/report_parts/moment.h"
+#include "pipelines/result_fields/moment.h"
 
 #include <cmath>
 
