@@ -38,7 +38,7 @@ TEST(PortPictures, OfAWrongSceneLeaveNothing) {
   const results_test::Directory directory;
   const std::vector<std::string> wrong{
       edited("vibratory_mill.toml", coarse() + Edits{{"mass = \"20 kg\"", "mass = \"-20 kg\""}}),
-      edited("vibratory_mill.toml", coarse() + Edits{{"wall = \"6 mm\"", "wall = \"60 mm\""}}),
+      edited("vibratory_mill.toml", coarse() + Edits{{"wall = \"12 mm\"", "wall = \"60 mm\""}}),
       results_test::bytes(shipped("drive_train.toml"))};
   for (const auto& text : wrong) {
     write(directory / "mill.toml", text);

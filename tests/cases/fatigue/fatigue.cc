@@ -196,9 +196,9 @@ TEST(Fatigue, WeldToesHaveAtLeastTheDamageAcrossThem) {
                                       {"cells_through_wall = 2", "cells_through_wall = 1"},
                                       {"level = \"50 % of peak\"", "level = \"20 % of peak\""},
                                       {"snapshots = 24", "snapshots = 0"},
-                                      {"pictures = true", "pictures = false"}});
-  const std::string table = "[chamber.fatigue]\ntensile_strength = \"510 MPa\"\n";
-  const auto json = run_small(directory.path, chamber + table);
+                                      {"pictures = true", "pictures = false"},
+                                      {"wanted_life = \"2000 h\"", "tensile_strength = \"510 MPa\""}});
+  const auto json = run_small(directory.path, chamber);
   const auto& body = json["bodies"]["chamber"];
   const auto &spots = body["hot_spots"], &welds = body["fatigue"]["welds"];
   ASSERT_GE(welds.size(), 2u);
@@ -245,7 +245,7 @@ TEST(Fatigue, WeldToesHaveAtLeastTheDamageAcrossThem) {
   const auto files = expect_fields_of_readme(directory / "out");
   EXPECT_EQ(files.count("weld_fatigue.csv") + files.count("hot_spots.csv"), 2u);
   write(directory / "scene.toml",
-        chamber + table + "[[chamber.fatigue.welds.toes]]\nname = \"nowhere\"\nclass = \"100 MPa\"\n");
+        chamber + "[[chamber.fatigue.welds.toes]]\nname = \"nowhere\"\nclass = \"100 MPa\"\n");
   const auto refused = millstress(directory.path, "run scene.toml -o out");
   EXPECT_EQ(refused.exit_code, 2) << refused.out;
   EXPECT_NE(refused.err.find("is no weld toe of this body"), std::string::npos) << refused.err;
@@ -383,8 +383,9 @@ TEST(Fatigue, HaveASizeFactor) {
 TEST(Fatigue, WeldToesHaveTypesAndClasses) {
   const results_test::Directory directory;
   const auto checked = [&](const std::string& keys) {
-    write(directory / "scene.toml", chamber_alone({{"  \"gravity_shaft\", \"shaft_inertia\",", "  #"}}) +
-                                        "[chamber.fatigue]\ntensile_strength = \"510 MPa\"\n" + keys);
+    write(directory / "scene.toml",
+          chamber_alone({{"  \"gravity_shaft\", \"shaft_inertia\",", "  #"},
+                         {"wanted_life = \"2000 h\"", "tensile_strength = \"510 MPa\"\n" + keys + "#"}}));
     return millstress(directory.path, "check scene.toml");
   };
   const auto expect_refused = [&](const std::string& keys, const std::string& text) {

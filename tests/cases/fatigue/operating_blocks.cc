@@ -287,6 +287,7 @@ TEST(OperatingBlocks, KeepTheBody) {
 TEST(OperatingBlocks, HaveTheStressOfToesThatWereSolvedAsSubmodels) {
   const results_test::Directory directory;
   write(directory / "scene.toml", chamber_alone({{"instants_per_turn = 120", "instants_per_turn = 24"},
+                                                 {"cells_through_wall = 2", "cells_through_wall = 1"},
                                                  {"snapshots = 24", "snapshots = 0"},
                                                  {"pictures = true", "pictures = false"},
                                                  {"  \"gravity_shaft\", \"shaft_inertia\",", "  #"}}) +

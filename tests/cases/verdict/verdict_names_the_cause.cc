@@ -162,14 +162,17 @@ TEST(Verdict, FailsWhereStrict) {
   }
 }
 
-// IIW by hand: hours to failure at the range that the toe is stated to bear, class 90 over 1.35. Turns red: a
-// toe of another range, a life that is judged in seconds.
+// Half of the wall and lower webs, with the masses of before. IIW by hand: hours to failure at the range that
+// the toe is stated to bear, class 90 over 1.35. Turns red: a toe of another range, a life that is judged in
+// seconds.
 TEST(Verdict, NamesTheWeldsOfAChamber) {
   const results_test::Directory directory;
-  const auto outcome =
-      millstress(directory.path, "run '" + shipped("vibratory_mill.toml").string() +
-                                     "' -o out --set shaft=removed --set "
-                                     "chamber.mesh.cells_through_wall=1 --set results.pictures=false");
+  const auto outcome = millstress(
+      directory.path,
+      "run '" + shipped("vibratory_mill.toml").string() +
+          "' -o out --set shaft=removed --set chamber.mesh.cells_through_wall=1 --set results.pictures=false "
+          "--set 'chamber.tube.wall=6 mm' --set 'chamber.webs.height=140 mm' "
+          "--set 'chamber.added_masses[1].mass=10 kg'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto line = [&](std::size_t n) {
     std::istringstream in(outcome.out);
@@ -193,25 +196,25 @@ TEST(Verdict, NamesTheWeldsOfAChamber) {
   EXPECT_NEAR(welds["margin"].get<double>(), toe->at("life_safety").get<double>(), 1e-12);
 }
 
-// Every shipped scene on its own mesh. The vibratory mill's welds are too weak, as its title says.
-TEST(Verdict, OfEachShippedSceneIsWhatItsTitleSays) {
+// Every shipped scene on its own mesh. That of the vibratory mill leaves its toes to submodels, for minutes:
+// searches know them sooner.
+TEST(Verdict, OfEachShippedSceneIsOk) {
   const results_test::Directory directory;
-  const std::vector<std::pair<std::string, std::string>> verdicts = {
-      {"drive_train", "OK"},
-      {"load_table", "OK"},
-      {"part", "OK"},
-      {"shaft", "OK"},
-      {"root_peeler_shaft", "OK"},
-      {"planetary_mill", "OK"},
-      {"stub_axle", "OK"},
-      {"vibratory_mill", "NOT OK: chamber, welds at web"},
-      {"vibratory_mill_duty", "NOT OK: chamber, welds at web"}};
-  for (const auto& [name, wanted] : verdicts) {
+  const std::vector<std::pair<std::string, std::string>> scenes = {{"drive_train", ""},
+                                                                   {"load_table", ""},
+                                                                   {"part", ""},
+                                                                   {"shaft", ""},
+                                                                   {"root_peeler_shaft", ""},
+                                                                   {"planetary_mill", ""},
+                                                                   {"stub_axle", ""},
+                                                                   {"vibratory_mill", " --tolerance '5 %'"},
+                                                                   {"vibratory_mill_duty", ""}};
+  for (const auto& [name, options] : scenes) {
     const auto outcome =
         millstress(directory.path, "run '" + shipped(name + ".toml").string() + "' -o " + name +
-                                       " --set results.pictures=false --set results.snapshots=0");
+                                       " --set results.pictures=false --set results.snapshots=0" + options);
     ASSERT_EQ(outcome.exit_code, 0) << name << outcome.err;
     const auto headline = summary(directory / name)["verdict"]["headline"].get<std::string>();
-    EXPECT_EQ(headline.rfind(wanted, 0), 0u) << name << ": " << headline;
+    EXPECT_EQ(headline, "OK") << name;
   }
 }

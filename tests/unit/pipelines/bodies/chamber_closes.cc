@@ -188,10 +188,10 @@ TEST(Chamber, AChargeAtOneEndTiltsIt) {
   expect_closed(result, "charge at the front");
   const auto& wall = result.history.resultant("inner_wall").total;
   EXPECT_LT(
-      bodies::largest(bodies::course(result.loads, "inner_wall.my") - wall.row(0).transpose() * 0.28 / 6),
+      bodies::largest(bodies::course(result.loads, "inner_wall.my") - wall.row(0).transpose() * 0.21 / 6),
       1e-9);
   EXPECT_LT(
-      bodies::largest(bodies::course(result.loads, "inner_wall.mx") + wall.row(1).transpose() * 0.28 / 6),
+      bodies::largest(bodies::course(result.loads, "inner_wall.mx") + wall.row(1).transpose() * 0.21 / 6),
       1e-9);
 }
 

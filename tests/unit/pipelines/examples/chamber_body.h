@@ -42,16 +42,17 @@ inline pipelines::LoadedBody body() {
   exciter.mass_kg = m.exciter_mass_kg;
   exciter.second_moments_kg_m2 = {0.009, 0.009, 0.02, 0, 0, 0};
   structure.second_moments_kg_m2 = {2.6, m.pitch_inertia_kg_m2 - 2.6 - 0.018, 0.4, 0.1, 0.02, -0.03};
-  pipelines::LoadedBody body{"chamber",
-                             {bodies::port("housing_bore", Kind::bore, 1, {-0.0525, 0.0525}, 0.0475),
-                              bodies::port("inner_wall", Kind::bore, 2, {-0.14, 0.14}, 0.13, {c.x(), c.y()}),
-                              bodies::port("covers", Kind::face, 3, {-0.14, 0.14}, 0.175, {c.x(), c.y()})},
-                             {{"structure", {11}, structure}, {"exciter", {12}, exciter}},
-                             {}};
+  pipelines::LoadedBody body{
+      "chamber",
+      {bodies::port("housing_bore", Kind::bore, 1, {-0.0525, 0.0525}, 0.0475),
+       bodies::port("inner_wall", Kind::bore, 2, {-0.105, 0.105}, 0.13, {c.x(), c.y()}),
+       bodies::port("covers", Kind::face, 3, {-0.105, 0.105}, 0.186, {c.x(), c.y()})},
+      {{"structure", {11}, structure}, {"exciter", {12}, exciter}},
+      {}};
   for (std::size_t i = 0; i < m.springs.size(); ++i) {
     const auto& p = m.springs[i].position_m;
     body.ports.push_back(bodies::port("spring_foot_" + std::to_string(i + 1), Kind::face, 4 + int(i),
-                                      {-0.12, 0.12}, 0, {p.x(), p.y()}));
+                                      {-0.09, 0.09}, 0, {p.x(), p.y()}));
   }
   return body;
 }

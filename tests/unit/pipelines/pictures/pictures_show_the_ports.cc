@@ -109,8 +109,8 @@ TEST(PortSurface, OfTheShaftHasTheAreasOfItsCylinders) {
 TEST(PortSurface, OfTheChamberHasTheAreasOfItsBoresFlangesAndPads) {
   expect_areas("vibratory_mill.toml", "chamber",
                {{"housing_bore", tube(0.095, 0.105)},
-                {"inner_wall", tube(0.26, 0.28)},
-                {"covers", 2 * ring(0.35, 0.272)},
+                {"inner_wall", tube(0.26, 0.21)},
+                {"covers", 2 * ring(0.372, 0.284)},
                 {"spring_foot_1", 2 * 0.05 * 0.03},
                 {"spring_foot_2", 2 * 0.05 * 0.03}});
 }

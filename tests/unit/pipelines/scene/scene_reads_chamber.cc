@@ -24,25 +24,25 @@ TEST(SceneChamber, HasTheLaboratorySizes) {
   EXPECT_EQ(body->shaft(), nullptr);
   const auto& [g, mesh] = std::get<pipelines::ChamberShape>(body->shape);
   expect_same_number(g.tube.inner_radius_m, 0.13);
-  expect_same_number(g.tube.length_m, 0.28);
-  expect_same_number(g.tube.wall_m, 0.006);
+  expect_same_number(g.tube.length_m, 0.21);
+  expect_same_number(g.tube.wall_m, 0.012);
   expect_same_number(g.tube.axis_x_m, 0.28);
   expect_same_number(g.tube.axis_y_m, 0.04);
-  expect_same_number(g.flanges.outer_radius_m, 0.175);
-  expect_same_number(g.flanges.thickness_m, 0.012);
+  expect_same_number(g.flanges.outer_radius_m, 0.186);
+  expect_same_number(g.flanges.thickness_m, 0.008);
   expect_same_number(g.housing.outer_radius_m, 0.065);
   expect_same_number(g.housing.bore_radius_m, 0.0475);
   expect_same_number(g.housing.length_m, 0.105);
-  expect_same_number(g.webs.thickness_m, 0.014);
-  expect_same_number(g.webs.height_m, 0.14);
+  expect_same_number(g.webs.thickness_m, 0.015);
+  expect_same_number(g.webs.height_m, 0.17);
   ASSERT_EQ(g.webs.z_m.size(), 2u);
   expect_same_number(g.webs.z_m[0], -0.045);
   expect_same_number(g.webs.z_m[1], 0.045);
   expect_same_number(g.lugs.thickness_m, 0.008);
-  expect_same_number(g.lugs.width_m, 0.04);
-  expect_same_number(g.lugs.z_m, 0.1);
+  expect_same_number(g.lugs.width_m, 0.05);
+  expect_same_number(g.lugs.z_m, 0.075);
   expect_same_number(g.pads.size_x_m, 0.05);
-  expect_same_number(g.pads.size_y_m, 0.03);
+  expect_same_number(g.pads.size_y_m, 0.02);
   expect_same_number(g.pads.size_z_m, 0.03);
   ASSERT_EQ(g.feet.size(), 2u);
   expect_same_number(g.feet[0].x_m, 0.1);
@@ -65,8 +65,8 @@ TEST(SceneChamber, HasTheLaboratorySizes) {
   const auto &covers = body->added_masses[0], &rings = body->added_masses[1];
   EXPECT_EQ(covers.port, "covers");
   EXPECT_EQ(covers.region, "structure");
-  expect_same_number(covers.mass_kg, 6.04);
-  expect_same_number(covers.polar_inertia_kg_m2, 0.0925);
+  expect_same_number(covers.mass_kg, 2);
+  expect_same_number(covers.polar_inertia_kg_m2, 0.0296);
   EXPECT_EQ(rings.port, "housing_bore");
   EXPECT_EQ(rings.region, "exciter") << "it rides on the bore";
   EXPECT_TRUE(scene.masses_from_mesh.empty());
@@ -100,7 +100,7 @@ TEST(SceneChamber, RecordsItsDefaults) {
   EXPECT_TRUE(has_default(scene, "chamber.elastic_feet", "false"));
   EXPECT_TRUE(has_default(scene, "chamber.pitch_guide", "\"body\""));
   EXPECT_TRUE(has_default(scene, "chamber.tube.inner_radius", "0.13 m"));
-  EXPECT_TRUE(has_default(scene, "chamber.tube.length", "0.28 m"));
+  EXPECT_TRUE(has_default(scene, "chamber.tube.length", "0.21 m"));
   EXPECT_TRUE(has_default(scene, "chamber.mesh.cells_through_wall", "2"));
   EXPECT_TRUE(has_default(scene, "chamber.pressure.inner_wall.pattern", "\"cosine\""));
   EXPECT_TRUE(has_default(scene, "chamber.added_masses[2].moves_with", "\"exciter\""));
@@ -108,17 +108,16 @@ TEST(SceneChamber, RecordsItsDefaults) {
 }
 
 TEST(SceneChamber, TakesItsOptions) {
-  const auto scene =
-      edited::scene("vibratory_mill",
-                    {{"difference_port = \"covers\"", "difference_port = \"spring_foot_1\""},
-                     {"pitch_guide = \"body\"", "pitch_guide = \"feet\""},
-                     {"elastic_feet = false", "elastic_feet = true"},
-                     {"wall = \"6 mm\"", "wall = \"6 mm\"\ninner_radius = \"131 mm\"\nlength = \"0.3 m\""},
-                     {"half_angle = \"90 deg\"\nharmonics = 4",
-                      "half_angle = \"60 deg\"\npattern = \"uniform\"\nharmonics = 7\naxial = [1, 3, 0]"},
-                     {"mass = \"6.04 kg\"",
-                      "mass = \"6.04 kg\"\noffset = [\"10 mm\", \"-5 mm\"]\nmoves_with = \"exciter\""},
-                     {"# size = \"20 mm\"", "size = \"20 mm\""}});
+  const auto scene = edited::scene(
+      "vibratory_mill",
+      {{"difference_port = \"covers\"", "difference_port = \"spring_foot_1\""},
+       {"pitch_guide = \"body\"", "pitch_guide = \"feet\""},
+       {"elastic_feet = false", "elastic_feet = true"},
+       {"wall = \"12 mm\"", "wall = \"12 mm\"\ninner_radius = \"131 mm\"\nlength = \"0.3 m\""},
+       {"half_angle = \"90 deg\"\nharmonics = 4",
+        "half_angle = \"60 deg\"\npattern = \"uniform\"\nharmonics = 7\naxial = [1, 3, 0]"},
+       {"mass = \"2 kg\"", "mass = \"2 kg\"\noffset = [\"10 mm\", \"-5 mm\"]\nmoves_with = \"exciter\""},
+       {"# size = \"20 mm\"", "size = \"20 mm\""}});
   const auto& body = *scene.body("chamber");
   EXPECT_EQ(body.difference_port, "spring_foot_1");
   EXPECT_EQ(std::get<pipelines::ChamberOptions>(body.options).pitch_guide, pipelines::PitchGuide::feet);
@@ -169,11 +168,11 @@ TEST(SceneChamber, HasItsOwnSizesWhereTheMachineHasNone) {
   const auto scene = edited::scene(
       "vibratory_mill",
       {{"inner_radius = \"130 mm\"       # optional, as is the next: is there room for the charge?\n", ""},
-       {"inner_length = \"280 mm\"\n", ""},
-       {"wall = \"6 mm\"", "wall = \"6 mm\"\ninner_radius = \"120 mm\"\nlength = \"0.25 m\""}});
+       {"inner_length = \"210 mm\"\n", ""},
+       {"wall = \"12 mm\"", "wall = \"12 mm\"\ninner_radius = \"140 mm\"\nlength = \"0.25 m\""}});
   EXPECT_FALSE(scene.milling_space);
   const auto& shape = std::get<pipelines::ChamberShape>(scene.body("chamber")->shape);
-  expect_same_number(shape.geometry.tube.inner_radius_m, 0.12);
+  expect_same_number(shape.geometry.tube.inner_radius_m, 0.14);
   expect_same_number(shape.geometry.tube.length_m, 0.25);
 }
 

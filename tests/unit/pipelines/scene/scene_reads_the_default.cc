@@ -141,7 +141,7 @@ TEST(default_scene, HasTheLaboratoryShaft) {
 
 TEST(default_scene, CoversThePeriodAndWarnsOfNothing) {
   const Scene scene = pipelines::read_scene(default_scene);
-  EXPECT_EQ(scene.title, "Laboratory vibratory mill whose webs' welds last hours");
+  EXPECT_EQ(scene.title, "Laboratory vibratory mill");
   EXPECT_EQ(scene.file, default_scene);
   EXPECT_EQ(scene.sampling.turns, 20);
   EXPECT_EQ(scene.sampling.instants_per_turn, 120);

@@ -135,7 +135,7 @@ TEST(SceneFatigue, SizeBeyondTheStandardIsNotJudged) {
       << shaft(scene).fatigue_missing;
 }
 
-// By the thickest of its plates of 6 to 14 mm, its housing's ring of 17.5 mm and its pads of 30 mm: 225 MPa,
+// By the thickest of its plates of 8 to 15 mm, its housing's ring of 17.5 mm and its pads of 20 mm: 225 MPa,
 // and with a ring of 42 mm 215 MPa (EN 10025-2). Turns red: plates alone, which have 235 MPa.
 TEST(SceneMaterial, ChambersGoByTheirThickestMember) {
   const auto given = edited::scene("vibratory_mill", {});
