@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include "pipelines/materials/material_library.h"
 #include "pipelines/materials/material_report.h"
@@ -21,6 +22,22 @@ std::pair<double, double> strengths(const std::string& name, double thickness_mm
 }
 
 using Strengths = std::pair<double, double>;
+
+/// A line of a data sheet: up to a thickness in mm, R_e and R_m in MPa.
+struct Line {
+  double up_to_mm, yield_MPa, tensile_MPa;
+};
+
+/// Every line at its largest thickness and just above that of the line before.
+void expect_sheet(const std::string& name, const std::vector<Line>& sheet) {
+  double before_mm = 0;
+  for (const auto& line : sheet) {
+    const Strengths printed(line.yield_MPa, line.tensile_MPa);
+    EXPECT_EQ(strengths(name, line.up_to_mm), printed) << name << ' ' << line.up_to_mm;
+    EXPECT_EQ(strengths(name, before_mm + 0.1), printed) << name << ' ' << before_mm + 0.1;
+    before_mm = line.up_to_mm;
+  }
+}
 
 }  // namespace
 
@@ -66,6 +83,53 @@ TEST(Materials, AlloySteelsAreThoseOfTheTextbook) {
   }
   EXPECT_EQ(strengths("42CrMo4", 16), Strengths(900, 1100));
   EXPECT_EQ(strengths("34CrNiMo6", 16), Strengths(1000, 1200));
+}
+
+// E295 and E335 of table 2, "Non-alloy structural steels according to European standard", of a catalogue of
+// rolled sections (Polish, English, Czech), which ends at 125 mm.
+TEST(Materials, EngineeringSteelsAreThoseOfTheSectionsCatalogue) {
+  expect_sheet(
+      "E295",
+      {{16, 295, 470}, {40, 285, 470}, {63, 275, 470}, {80, 265, 470}, {100, 255, 470}, {125, 245, 450}});
+  expect_sheet(
+      "E335",
+      {{16, 335, 570}, {40, 325, 570}, {63, 315, 570}, {80, 305, 570}, {100, 295, 570}, {125, 275, 550}});
+}
+
+// Saarstahl, "C60" by EN 10083, normalised.
+TEST(Materials, C60IsThatOfItsDataSheet) {
+  expect_sheet("C60+N", {{16, 380, 710}, {100, 340, 670}, {250, 310, 650}});
+}
+
+// Lucefin Group, technical card "25CrMo4"; Granit Engineering, sheet "34CrMo4", both by EN 10083-3:2006;
+// Saarstahl, "42CrMo4 - 42CrMoS4", and Lucefin Group, technical card "42CrMo4", which agree.
+TEST(Materials, ThickAlloySteelsAreThoseOfTheirDataSheets) {
+  expect_sheet("25CrMo4+QT", {{16, 700, 900}, {40, 600, 800}, {100, 450, 700}, {160, 400, 650}});
+  expect_sheet("34CrMo4+QT",
+               {{16, 800, 1000}, {40, 650, 900}, {100, 550, 800}, {160, 500, 750}, {250, 450, 700}});
+  expect_sheet("42CrMo4+QT",
+               {{16, 900, 1100}, {40, 750, 1000}, {100, 650, 900}, {160, 550, 800}, {250, 500, 750}});
+}
+
+// R_m expected in a casting of EN-GJL-250: foundry Brackelsberg, table "Grauguss" by DIN EN 1561, and
+// Modelleria Zuin, "Pig iron" by UNI EN 1561, which agree.
+TEST(Materials, GreyIronIsThatOfTheFoundries) {
+  const std::pair<double, double> sheet[] = {{10, 250}, {20, 225}, {40, 195}, {80, 170}, {150, 155}};
+  for (const auto& [up_to_mm, tensile_MPa] : sheet)
+    EXPECT_EQ(strengths("EN-GJL-250", up_to_mm).second, tensile_MPa) << up_to_mm;
+}
+
+// Extruded bars by EN 755-2: extruder's sheet "Extrusion aluminium alloy EN AW-6082"; Euralliage, "7075".
+TEST(Materials, AluminiumBarsAreThoseOfTheirDataSheets) {
+  expect_sheet("EN AW-6082 T6", {{20, 250, 295}, {150, 260, 310}, {200, 240, 280}, {250, 200, 270}});
+  expect_sheet("EN AW-7075 T6", {{25, 480, 540}, {100, 500, 560}});
+}
+
+// R_m of GS 45 or GE 240, R_e and R_m of GS 60 or GE 300, thin: a foundry's table "Stahlguss für allgemeine
+// Verwendung", which has R_e 230 of DIN 1681 for the former.
+TEST(Materials, CastSteelsAreThoseOfTheFoundry) {
+  EXPECT_EQ(strengths("GE240", 30).second, 450);
+  EXPECT_EQ(strengths("GE300", 30), Strengths(300, 600));
 }
 
 // 1.4301 by EN 10088-3 (dealer innorat.ch): 190 and 500. Ductile iron by EN 1563 (iron-foundry.com): 250 and
