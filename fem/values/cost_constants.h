@@ -5,9 +5,8 @@
 ///   date     2026-11-21, the analysed factor 2026-11-22
 ///   refit    tests/benchmarks/run solvers fit 4.1e6    prints what it measured, and each constant anew
 ///
-/// On another machine all seconds grow alike, and `check` learns by how much (pipelines/accuracy/
-/// cost_calibration.h): a refit is due when a solver changes. What superposition takes is in
-/// pipelines/accuracy/cost_calibration.cc.
+/// On another machine all seconds change alike, within a factor of three: a refit is due when a solver
+/// changes. What superposition takes is in pipelines/accuracy/cost_forecast.cc.
 #pragma once
 
 namespace fem::cost {

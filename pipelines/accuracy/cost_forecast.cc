@@ -25,6 +25,11 @@ namespace {
 constexpr double even_factors[] = {0.5, 0.75, 1.5, 2, 3};
 constexpr double beam_nodes = 1500;
 
+/// Superposition on two threads: of one product of channel and unit stress; what the measures of stress take
+/// at an instant, and a node's bookkeeping, in such products. AMD EPYC of 2023 with AVX-512, 2026-11-21, from
+/// the times of `tests/benchmarks/run --benchmark_filter=superposition`.
+constexpr double s_per_product = 1.5e-10, products_per_instant = 12, products_per_node = 7000;
+
 /// Those of its mesh, or about as many where none was made.
 std::size_t unknowns_of(const BodyScene& body, const MeshedBody& meshed) {
   return meshed.model ? meshed.model->n_dofs() : estimated_unknowns(body);
@@ -37,8 +42,7 @@ bool is_of_tetrahedra(const BodyScene& body) {
 
 class Forecaster {
 public:
-  Forecaster(const BodyScene& body, const ForecastLoads& loads, const CostCalibration& calibration)
-      : loads_(loads), calibration_(calibration) {
+  Forecaster(const BodyScene& body, const ForecastLoads& loads) : loads_(loads) {
     choice_.solver = body.solver;
   }
 
@@ -65,25 +69,23 @@ public:
 
 private:
   double superpose_s(double n_nodes) const {
-    return calibration_.superposition *
-           predicted_superposition_s(std::size_t(n_nodes), loads_.n_instants, loads_.n_channels);
+    return s_per_product * n_nodes *
+           (double(loads_.n_instants) * (double(loads_.n_channels) + products_per_instant) +
+            products_per_node);
   }
   double responses_gigabytes(double n_nodes) const { return 72e-9 * n_nodes * double(loads_.n_channels); }
 
   ModelForecast of(const std::string& model, std::size_t n_dofs, const fem::SolverReport& report) const {
-    const double factor =
-        report.used == fem::Solver::iterative ? calibration_.iterative : calibration_.direct;
     const double n_nodes = double(n_dofs) / 3;
     return {model,
             n_dofs,
             report.used,
-            factor * report.predicted().seconds,
+            report.predicted().seconds,
             superpose_s(n_nodes),
             1e-9 * report.predicted().bytes + responses_gigabytes(n_nodes)};
   }
 
   ForecastLoads loads_;
-  CostCalibration calibration_;
   fem::SolverChoice choice_;
   std::size_t n_dofs_ = 0;
   std::optional<fem::SolverReport> at_hand_;
@@ -92,8 +94,8 @@ private:
 }  // namespace
 
 std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBody& meshed,
-                                           const ForecastLoads& loads, const CostCalibration& calibration) {
-  Forecaster forecaster(body, loads, calibration);
+                                           const ForecastLoads& loads) {
+  Forecaster forecaster(body, loads);
   std::vector<ModelForecast> models{forecaster.of("the scene's mesh", body, meshed)};
   const double n_dofs = double(models.front().n_dofs);
   if (why_not_beam(body).empty()) models.push_back(forecaster.cheap("beam", 3 * beam_nodes, 0, beam_nodes));
@@ -149,31 +151,26 @@ void print_models(std::ostream& out, const std::vector<ModelForecast>& models) {
   }
 }
 
-std::string forecast_beside(const BodyScene& body, const MeshedBody& meshed,
-                            const CostCalibration& calibration) {
+std::string forecast_beside(const BodyScene& body, const MeshedBody& meshed) {
   std::string text;
   if (body.natural_frequencies > 0)
-    text += fmt::format(
-        "  natural frequencies take about {:.2g} s more on the scene's mesh\n",
-        calibration.direct * fem::cost::frequencies_s_per_dof * double(unknowns_of(body, meshed)));
+    text += fmt::format("  natural frequencies take about {:.2g} s more on the scene's mesh\n",
+                        fem::cost::frequencies_s_per_dof * double(unknowns_of(body, meshed)));
   if (const auto n_toes = meshed.mesh.hot_spots.size(); n_toes > 0)
     text += fmt::format(
         "  with --tolerance none submodels take about {:.2g} s more for each weld toe that may lead, of {}\n",
-        calibration.direct * fem::cost::submodels_s_per_toe, n_toes);
+        fem::cost::submodels_s_per_toe, n_toes);
   return text;
 }
 
 void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& meshed,
-                    const std::vector<ModelForecast>& models, const CostCalibration& calibration) {
+                    const std::vector<ModelForecast>& models) {
   if (!meshed.model)
     out << "  by formula, since nothing was meshed: unknowns within a third, tetrahedra and seconds a factor "
            "of three\n";
   print_models(out, models);
-  out << forecast_beside(body, meshed, calibration);
-  if (!calibration.fault.empty()) out << "  (" << calibration.fault << ")\n";
-  out << (calibration.n_runs > 0
-              ? fmt::format("  (seconds learnt from {} runs on this machine)\n", calibration.n_runs)
-              : "  (seconds of the machine that the prediction was made on: no run yet on this one)\n");
+  out << forecast_beside(body, meshed);
+  out << "  (seconds of the machine that the prediction was made on)\n";
 }
 
 RunForecast forecast_run(const Scene& scene, const std::vector<std::vector<ModelForecast>>& ladders) {
@@ -218,27 +215,13 @@ double expected_seconds(const Scene& scene) {
   constexpr std::size_t usual_channels = 32;
   const auto springs = springs_of(scene);
   const auto n_instants = std::size_t(scene.sampling.turns) * std::size_t(scene.sampling.instants_per_turn);
-  const auto calibration = read_calibration(calibration_file());
   std::vector<std::vector<ModelForecast>> ladders;
   for (const auto& body : scene.bodies) {
     if (!can_be_refined(body) || !has_known_ports(body)) return 0;
-    ladders.push_back(forecast_ladder(body, describe_body(body, springs),
-                                      {usual_channels, n_instants, springs}, calibration));
+    ladders.push_back(
+        forecast_ladder(body, describe_body(body, springs), {usual_channels, n_instants, springs}));
   }
   return forecast_run(scene, ladders).seconds;
-}
-
-void learn_from(const SceneRun& run) {
-  for (const auto& analysis : run.analyses) {
-    const auto& responses = analysis.responses;
-    const double predicted_s = responses.solver.predicted().seconds;
-    learn_cost(
-        calibration_file(), responses.solver.used,
-        analysis.solve_s > 0 && predicted_s > 0 ? analysis.solve_s / predicted_s : 0,
-        analysis.superpose_s / predicted_superposition_s(responses.nodes.n,
-                                                         std::size_t(n_superposed(analysis.loads.history)),
-                                                         responses.channels.size()));
-  }
 }
 
 }  // namespace pipelines

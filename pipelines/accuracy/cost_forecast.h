@@ -1,5 +1,5 @@
-/// What a run will take before anything is solved, model by model, in seconds of this
-/// machine.
+/// What a run will take before anything is solved, model by model, in seconds of the machine that the
+/// constants were measured on (fem/values/cost_constants.h): within a factor of three on others.
 #pragma once
 
 #include <iosfwd>
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "fem/values/solver_choice.h"
-#include "pipelines/accuracy/cost_calibration.h"
-#include "pipelines/search/scene_run.h"
+#include "pipelines/loads/body_loads.h"
+#include "pipelines/loads/body_mesh.h"
 
 namespace pipelines {
 
@@ -34,19 +34,18 @@ struct ForecastLoads {
 /// that the body does not have are left out; one whose mesh is refused says why. Of a body that is described
 /// alone (described_body.h) all follow from its measures, and nothing is built.
 std::vector<ModelForecast> forecast_ladder(const BodyScene& body, const MeshedBody& meshed,
-                                           const ForecastLoads& loads, const CostCalibration& calibration);
+                                           const ForecastLoads& loads);
 
 /// What the table has not, in lines: natural frequencies, submodels of weld toes. Empty where neither is
 /// asked for.
-std::string forecast_beside(const BodyScene& body, const MeshedBody& meshed,
-                            const CostCalibration& calibration);
+std::string forecast_beside(const BodyScene& body, const MeshedBody& meshed);
 
 /// A table with one line for each model.
 void print_models(std::ostream& out, const std::vector<ModelForecast>& models);
 
-/// The forecast of the calibration on this machine, as lines of `check -v`.
+/// The forecast as lines of `check -v`.
 void print_forecast(std::ostream& out, const BodyScene& body, const MeshedBody& meshed,
-                    const std::vector<ModelForecast>& models, const CostCalibration& calibration);
+                    const std::vector<ModelForecast>& models);
 
 /// A whole run, as the scene asks for it: meshes, searches and pictures too.
 struct RunForecast {
@@ -61,8 +60,5 @@ RunForecast forecast_run(const Scene& scene, const std::vector<std::vector<Model
 /// The same before anything is distributed, for a progress bar: of as many unit loads as a shaft or a chamber
 /// has. 0 where a mesh alone tells what a body is.
 double expected_seconds(const Scene& scene);
-
-/// What a run tells about this machine's speed goes into the calibration.
-void learn_from(const SceneRun& run);
 
 }  // namespace pipelines

@@ -97,8 +97,7 @@ CheckedBody checked(const CheckReport& report, const BodyScene& body, const Mesh
   result.forecast = forecast_ladder(
       body, meshed,
       {channels.size(), std::size_t(n_instants / n_looked_at * double(n_superposed(loads.history))),
-       springs_of(scene), &loads},
-      report.calibration);
+       springs_of(scene), &loads});
   result.effects = effect_sizes(loads, meshed.regions);
   result.instants = instants_text(scene, loads.history);
   for (const auto& channel : channels)
@@ -136,8 +135,7 @@ CheckedBody outlined(const CheckReport& report, const BodyScene& body, const Mes
     n_channels += is_face ? 3 : std::size_t(3 + 2 * body.pressure_harmonics);
   }
   const auto n_instants = std::size_t(scene.sampling.turns) * std::size_t(scene.sampling.instants_per_turn);
-  result.forecast =
-      forecast_ladder(body, described, {n_channels, n_instants, springs_of(scene)}, report.calibration);
+  result.forecast = forecast_ladder(body, described, {n_channels, n_instants, springs_of(scene)});
   return result;
 }
 
@@ -147,7 +145,7 @@ CheckedBody measured(const CheckReport& report, const BodyScene& body, const Mes
   result.name = body.name;
   result.meshed = &described;
   for (const auto& port : described.mesh.ports) result.ports.push_back({port.name, where_is(port)});
-  result.forecast = forecast_ladder(body, described, {0, 1, springs_of(report.scene)}, report.calibration);
+  result.forecast = forecast_ladder(body, described, {0, 1, springs_of(report.scene)});
   return result;
 }
 
@@ -232,7 +230,6 @@ struct CheckOptions : SceneOptions {
 void check(const CheckOptions& options, std::ostream& out) {
   CheckReport report;
   report.scene = read_scene(options.scene, options.settings);
-  report.calibration = read_calibration(calibration_file());
   const bool all = options.verbosity() == Verbosity::verbose;
   StageClock clock(all ? progress_on_stderr(Verbosity::verbose) : ProgressListener{});
   if (report.scene.bodies.empty()) {

@@ -122,7 +122,7 @@ void print_body(std::ostream& out, const CheckReport& report, const CheckedBody&
     out << fmt::format("    {:<28}machine {:.5g} {}, mesh and added masses {:.5g}{}\n", figure.name,
                        figure.given, figure.unit, figure.mesh, figure.from_mesh ? " (from the mesh)" : "");
   print_ports(out, body);
-  print_forecast(out, *report.scene.body(body.name), *body.meshed, body.forecast, report.calibration);
+  print_forecast(out, *report.scene.body(body.name), *body.meshed, body.forecast);
   if (!body.ports_are_known) return;
   print_effect_sizes(out, body.effects);
   if (!body.instants.empty()) out << "  " << body.instants << '\n';
@@ -161,7 +161,7 @@ Json json_of(const CheckReport& report, const CheckedBody& body) {
   json["ports_are_known"] = body.ports_are_known;
   for (const auto& port : body.ports) json["ports"][port.name] = port.where;
   for (const auto& model : body.forecast) json["forecast"].push_back(json_of(model));
-  json["forecast_beside"] = forecast_beside(*report.scene.body(body.name), *body.meshed, report.calibration);
+  json["forecast_beside"] = forecast_beside(*report.scene.body(body.name), *body.meshed);
   for (const auto& size : body.effects)
     json["effects"][size.effect] = {{"sum_of_forces_N", size.force_N}, {"sum_of_moments_Nm", size.moment_Nm}};
   json["instants"] = body.instants;
@@ -201,8 +201,7 @@ std::string check_json(const CheckReport& report) {
   if (report.run)
     json["run"] = {{"seconds", report.run->seconds},
                    {"gigabytes", report.run->gigabytes},
-                   {"ends_by_limit", report.run->ends_by_limit},
-                   {"learnt_from_runs", report.calibration.n_runs}};
+                   {"ends_by_limit", report.run->ends_by_limit}};
   for (const auto& effect : effect_table(scene))
     json["effects"][effect.name] = {{"on", scene.has_effect(effect.name)},
                                     {"description", effect.description},

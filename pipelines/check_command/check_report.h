@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/accuracy/cost_calibration.h"
 #include "pipelines/accuracy/cost_forecast.h"
 #include "pipelines/effects/body_effect_report.h"
 #include "pipelines/loads/machine_masses.h"
@@ -38,7 +37,6 @@ struct CheckReport {
   std::vector<std::string> warnings;  ///< of the loads; the scene has its own
   std::vector<std::string> blocks;    ///< "heavy: 25 % of the time"
   std::optional<RunForecast> run;     ///< none without bodies
-  CostCalibration calibration;
 };
 
 /// First that the scene is valid and what a run takes; then bodies, effects, ports, blocks, warnings.

@@ -12,7 +12,6 @@
 
 #include "fem/model/model.h"
 #include "fem/ranks/ranks.h"
-#include "pipelines/accuracy/cost_calibration.h"
 #include "pipelines/accuracy/cost_forecast.h"
 #include "pipelines/analysis/body_analysis.h"
 #include "pipelines/analysis/error_text.h"
@@ -272,8 +271,6 @@ bool is_kept(const SceneRun& run, const RequestedAccuracy& accuracy) {
 void warn_of_damage(SceneRun& run) {
   for (const auto& analysis : run.analyses)
     for (const auto& text : analysis.warnings) warn(run.loaded.loads, text);
-  if (const auto fault = read_calibration(calibration_file()).fault; !fault.empty())
-    std::cerr << "millstress: " << fault << '\n';
 }
 
 /// "NOT OK: welds at web 2, lower edge"
@@ -366,7 +363,6 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
     for (const auto& sentence : duty_lives_beyond_curves(*duty)) warn(run.loaded.loads, sentence);
   }
   warn_of_damage(run);
-  if (is_first_rank()) learn_from(run);
   const auto default_warnings = accuracy.by_default ? warn_of_default(run) : std::vector<std::string>();
   const auto& loads = run.loaded.loads;
   RunRecord record{is_kept(run, accuracy) ? request.key : "", run.kept_under, default_warnings};

@@ -170,16 +170,4 @@ void write_published(const std::filesystem::path& directory, const PublishedTabl
   forced("table_7_forced.csv", tables.working_side, tables.table_7);
 }
 
-void require_finite(const PublishedTables& tables) {
-  const auto check = [](const std::string& what, const auto& values) {
-    if (!values.allFinite()) refuse_not_finite("torsion", what, "");
-  };
-  for (const auto& [name, table] : {std::pair("Table 4", &tables.table_4), {"Table 7", &tables.table_7}}) {
-    check(fmt::format("a frequency of {} [rad/s]", name), table->frequency_rad_s);
-    check(fmt::format("a mode of {}", name), table->mode);
-    check(fmt::format("a forced angle of {} [rad]", name), table->forced_angle_rad);
-    check(fmt::format("a forced angle of {} with the right sign [rad]", name), table->right_sign_angle_rad);
-  }
-}
-
 }  // namespace pipelines

@@ -23,7 +23,4 @@ const std::vector<std::string>& published_files();
 
 void write_published(const std::filesystem::path& directory, const kinetics::PublishedTables& tables);
 
-/// @throws NotFinite naming the first value that is not finite
-void require_finite(const kinetics::PublishedTables& tables);
-
 }  // namespace pipelines

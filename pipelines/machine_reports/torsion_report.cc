@@ -1,5 +1,7 @@
 #include "pipelines/machine_reports/torsion_report.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,13 +9,25 @@
 #include "pipelines/common/errors.h"
 #include "pipelines/common/finite.h"
 #include "pipelines/common/refusal_of.h"
-#include "pipelines/machine_reports/published_torsion.h"
 #include "pipelines/machines/coarse_transient.h"
 #include "pipelines/machines/drive_train_reader.h"
 
 namespace pipelines {
 
 namespace {
+
+/// @throws NotFinite naming the first value that is not finite
+void require_finite(const kinetics::PublishedTables& tables) {
+  const auto check = [](const std::string& what, const auto& values) {
+    if (!values.allFinite()) refuse_not_finite("torsion", what, "");
+  };
+  for (const auto& [name, table] : {std::pair("Table 4", &tables.table_4), {"Table 7", &tables.table_7}}) {
+    check(fmt::format("a frequency of {} [rad/s]", name), table->frequency_rad_s);
+    check(fmt::format("a mode of {}", name), table->mode);
+    check(fmt::format("a forced angle of {} [rad]", name), table->forced_angle_rad);
+    check(fmt::format("a forced angle of {} with the right sign [rad]", name), table->right_sign_angle_rad);
+  }
+}
 
 /// With which amplitude a frequency turns up in the elements' torques, over their largest.
 double torque_share(const kinetics::ForcedResponse& forced, const std::vector<ElementTorque>& torques,

@@ -98,8 +98,8 @@ cases::Outcome DisturbedRuns::run_next(const std::string& before) const {
 }
 
 std::string DisturbedRuns::failing(const std::string& kind, long at) const {
-  return "export LD_PRELOAD='" FAILING_DISK "' FAULTS_BELOW='" + (directory_ / "out").string() + ":" +
-         (directory_ / "cache").string() + "' FAULTS_KIND=" + kind + " FAULTS_AT=" + std::to_string(at);
+  return "export LD_PRELOAD='" FAILING_DISK "' FAULTS_BELOW='" + (directory_ / "out").string() +
+         "' FAULTS_KIND=" + kind + " FAULTS_AT=" + std::to_string(at);
 }
 
 std::string DisturbedRuns::operations() const {

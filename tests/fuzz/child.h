@@ -13,7 +13,7 @@ struct ProgramEnd {
   std::string out, err;
 };
 
-/// @param outside          its output and the cache with costs.json lie there
+/// @param outside          its output and what libraries cache lie there
 /// @param seconds_of_core  after these a signal ends it
 ProgramEnd run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                        const std::filesystem::path& directory, const std::filesystem::path& outside,

@@ -11,8 +11,7 @@ const std::vector<Kind>& kinds() {
                                         {"msh-text", 100, msh_text_case},
                                         {"step", 15, step_case},
                                         {"msh", 20, msh_case},
-                                        {"responses", 100, responses_case},
-                                        {"costs", 70, costs_case},
+                                        {"responses", 170, responses_case},
                                         {"results", 70, results_case},
                                         {"program", 30, program_case},
                                         {"program-again", 10, program_again_case}};

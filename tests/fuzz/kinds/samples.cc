@@ -3,9 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "fem/values/solver_choice.h"
 #include "meshes/imported/apart.h"
-#include "pipelines/accuracy/cost_calibration.h"
 #include "pipelines/files/json_file.h"
 #include "pipelines/report/html_report.h"
 #include "pipelines/responses/iteration_memory.h"
@@ -84,10 +82,6 @@ void add_kept_files(Samples& samples, const fs::path& directory) {
   samples.responses = read_bytes(directory / "r.h5");
   pipelines::remember_iteration(directory, kept_key, true);
   samples.gave_up = read_bytes(directory / "iteration_gave_up.txt");
-  for (const double ratio : {1.5, 1e-6}) {
-    pipelines::learn_cost(directory / "costs.json", fem::Solver::iterative, ratio, 0.7);
-    samples.costs.push_back(read_bytes(directory / "costs.json"));
-  }
 }
 
 void add_results(Samples& samples, const fs::path& directory, const fs::path& program) {

@@ -16,7 +16,6 @@ struct Samples {
   std::string sound_table;                 ///< belt_pull.csv as shipped
   std::vector<std::string> steps, meshes;  ///< of the same block with a hole, in mm
   std::string responses, gave_up;          ///< kept under `kept_key`
-  std::vector<std::string> costs;          ///< costs.json with checksum
   std::vector<std::map<std::string, std::string>> results;  ///< files of result directories
 };
 

@@ -33,21 +33,15 @@ TEST(CostForecast, NamesFrequenciesAndSubmodels) {
   auto scene = read_scene(std::string(SOURCE_DIR) + "/pipelines/scenes/load_table.toml");
   auto& body = scene.bodies.front();
   auto meshed = mesh_body(body, {});
-  EXPECT_EQ(forecast_beside(body, meshed, {}), "");
+  EXPECT_EQ(forecast_beside(body, meshed), "");
   body.natural_frequencies = 3;
-  CostCalibration slow;
-  slow.direct = 2;
-  const auto seconds_of = [&](const CostCalibration& calibration) {
-    const auto text = forecast_beside(body, meshed, calibration);
-    const std::string begin = "natural frequencies take about ";
-    const auto at = text.find(begin);
-    return at == std::string::npos ? 0 : std::stod(text.substr(at + begin.size()));
-  };
-  EXPECT_GT(seconds_of({}), 1);
-  EXPECT_NEAR(seconds_of(slow), 2 * seconds_of({}), 0.1 * seconds_of({}));
+  const auto text = forecast_beside(body, meshed);
+  const std::string begin = "natural frequencies take about ";
+  const auto at = text.find(begin);
+  ASSERT_NE(at, std::string::npos) << text;
+  EXPECT_GT(std::stod(text.substr(at + begin.size())), 1);
   meshed.mesh.hot_spots.resize(7);
-  EXPECT_NE(forecast_beside(body, meshed, {}).find("for each weld toe that may lead, of 7"),
-            std::string::npos);
+  EXPECT_NE(forecast_beside(body, meshed).find("for each weld toe that may lead, of 7"), std::string::npos);
 }
 
 // A chamber's superposition took 1.7 s where 0.31 were forecast: its instants alone counted, not those

@@ -4,7 +4,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "pipelines/accuracy/cost_calibration.h"
 #include "pipelines/files/json_file.h"
 #include "pipelines/files/whole_file.h"
 #include "pipelines/result_files/manifest.h"
@@ -43,8 +42,6 @@ TEST(JsonFile, IsNotReadBelowAHundredLevels) {
 TEST(JsonFile, OfManyBracketsIsDamaged) {
   const results_test::Directory at;
   const std::string deep = nested_lists(200'000);
-  std::ofstream(at / "costs.json") << "{\"direct\": " + deep + ", \"checksum\": \"\"}";
-  EXPECT_NE(read_calibration(at / "costs.json").fault.find("is damaged"), std::string::npos);
   std::ofstream(at / manifest_name) << "{\"files\": {\"a\": " + deep + "}, \"checksum\": \"\"}";
   EXPECT_TRUE(check_manifest(at.path).damaged);
 }
@@ -59,8 +56,7 @@ void make_sparse(const std::filesystem::path& file, std::uintmax_t n_bytes) {
 TEST(JsonFile, OfGigabytesIsNotRead) {
   const results_test::Directory at;
   const auto begin = std::chrono::steady_clock::now();
-  for (const char* name : {"costs.json", "file.json", "manifest.json"}) make_sparse(at / name, 8'000'000'000);
-  EXPECT_NE(read_calibration(at / "costs.json").fault.find("is damaged"), std::string::npos);
+  for (const char* name : {"file.json", "manifest.json"}) make_sparse(at / name, 8'000'000'000);
   EXPECT_TRUE(read_json_file(at / "file.json").is_discarded());
   EXPECT_TRUE(check_manifest(at.path).damaged);
   // To read one takes ten seconds and more.
@@ -79,12 +75,6 @@ TEST(WholeFile, IsReadUpToASize) {
   EXPECT_EQ(size_text(8'000'000'000), "8.0 GB");
   EXPECT_EQ(size_text(2'500'000), "2.5 MB");
   EXPECT_EQ(size_text(500'000'000), "500 MB");
-}
-
-TEST(Calibration, OfADirectoryIsDamaged) {
-  const results_test::Directory at;
-  std::filesystem::create_directory(at / "costs.json");
-  EXPECT_NE(read_calibration(at / "costs.json").fault.find("is damaged"), std::string::npos);
 }
 
 }  // namespace
