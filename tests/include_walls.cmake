@@ -58,15 +58,21 @@ foreach(file IN LISTS files)
   endforeach()
 endforeach()
 
-# Rooms from the ground floor up: a room includes only itself and rooms before it.
+# Rooms from the ground floor up: a room includes only itself and rooms before it. Those of pipelines lie in wings, a line each.
 set(rooms_fem values common mesh triangulation ranks matrices operators loads stress recovery multigrid solvers submodel adaptivity modes beam axisymmetric model)
 set(rooms_kinetics values series vibratory_effects vibratory planetary_effects planetary torsion_chain torsion table)
 set(rooms_meshes values gmsh spacing checks shaft_layout shaft chamber solids keyed_shaft imported)
 set(rooms_pipelines
-    common names disk files fields exports fatigue materials scene_values scene scene_bodies scene_reader tables machines responses channels loads bodies
-    kernels superposition between_instants estimates body_figures analysis body_stages life calculix cheap_models
-    result_fields report_parts machine_reports verdict report effects refinement search accuracy result_files variations sweep drawing pictures
-    command_options sweep_command check_command commands)
+    base/common base/disk base/fatigue base/names base/files base/fields
+    scene/materials scene/values scene/whole scene/bodies scene/tables scene/reader scene/machines
+    loads/channels loads/stage loads/bodies
+    respond/responses
+    superpose/kernels superpose/envelope superpose/between_instants
+    judge/estimates judge/figures judge/analysis judge/stages judge/life judge/texts judge/verdict
+    search/cheap_models search/effect_choice search/refinement search/loop
+    write/drawing write/exports write/fields write/machines write/parts write/pictures write/report write/files
+    study/effects study/variations study/accuracy study/sweep
+    command/calculix command/options command/check command/commands command/sweep)
 foreach(folder fem kinetics meshes pipelines)
   set(above ${rooms_${folder}})
   foreach(room IN LISTS rooms_${folder})
@@ -89,7 +95,7 @@ foreach(folder fem kinetics meshes pipelines)
   foreach(stray IN LISTS strays)
     list(APPEND faults "${stray} lies in no room")
   endforeach()
-  file(GLOB rooms RELATIVE ${ROOT}/${folder} ${ROOT}/${folder}/*/*.h)
+  file(GLOB rooms RELATIVE ${ROOT}/${folder} ${ROOT}/${folder}/*/*.h ${ROOT}/${folder}/*/*/*.h)
   foreach(file IN LISTS rooms)
     get_filename_component(room ${file} DIRECTORY)
     if(NOT room IN_LIST rooms_${folder})

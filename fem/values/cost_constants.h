@@ -6,7 +6,7 @@
 ///   refit    tests/benchmarks/run solvers fit 4.1e6    prints what it measured, and each constant anew
 ///
 /// On another machine all seconds change alike, within a factor of three: a refit is due when a solver
-/// changes. What superposition takes is in pipelines/accuracy/cost_forecast.cc.
+/// changes. What superposition takes is in pipelines/study/accuracy/cost_forecast.cc.
 #pragma once
 
 namespace fem::cost {

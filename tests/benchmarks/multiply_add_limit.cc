@@ -1,7 +1,7 @@
 /// Compiled once per instruction set, with KERNEL_VARIANT naming the variant.
 #include "tests/benchmarks/multiply_add_limit.h"
 
-#include "pipelines/kernels/lanes.h"
+#include "pipelines/superpose/kernels/lanes.h"
 
 namespace benchmarks::limit::KERNEL_VARIANT {
 

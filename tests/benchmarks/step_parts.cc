@@ -11,9 +11,9 @@
 #include <fstream>
 
 #include "fem/model/model.h"
-#include "pipelines/cheap_models/cheap_responses.h"
-#include "pipelines/estimates/fineness.h"
-#include "pipelines/search/scene_run.h"
+#include "pipelines/judge/estimates/fineness.h"
+#include "pipelines/search/cheap_models/cheap_responses.h"
+#include "pipelines/search/loop/scene_run.h"
 #include "tests/cases/program/step_shafts.h"
 
 namespace {

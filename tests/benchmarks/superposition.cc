@@ -1,7 +1,7 @@
 // Superposition over the cycle: what a node takes at an instant, beside the multiply-adds that one core does
 // at most; that a stress which does not change, as in a shaft that turns with its load, takes no more; what
 // fatigue's cycles add to it; the memory that both take.
-#include "pipelines/superposition/superposition.h"
+#include "pipelines/superpose/envelope/superposition.h"
 
 #include <benchmark/benchmark.h>
 
@@ -10,9 +10,9 @@
 #include <numeric>
 
 #include "fem/common/memory.h"
-#include "pipelines/kernels/batch_walk.h"
-#include "pipelines/kernels/superposition_kernel.h"
-#include "pipelines/superposition/nodal_cycles.h"
+#include "pipelines/superpose/envelope/nodal_cycles.h"
+#include "pipelines/superpose/kernels/batch_walk.h"
+#include "pipelines/superpose/kernels/superposition_kernel.h"
 #include "tests/benchmarks/multiply_add_limit.h"
 #include "tests/benchmarks/solvers/process.h"
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "pipelines/common/errors.h"
+#include "pipelines/base/common/errors.h"
 #include "tests/fuzz/verdicts.h"
 
 namespace fuzz {

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "pipelines/common/errors.h"
-#include "pipelines/common/failure.h"
+#include "pipelines/base/common/errors.h"
+#include "pipelines/base/common/failure.h"
 
 namespace fuzz {
 namespace {

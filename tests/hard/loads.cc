@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "pipelines/superposition/superposition.h"
+#include "pipelines/superpose/envelope/superposition.h"
 #include "tests/hard/hard_case.h"
 #include "tests/verification/fem/bodies/block_mesh.h"
 #include "tests/verification/fem/bodies/figures.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "pipelines/channels/load_collector.h"
-#include "pipelines/scene_values/pressure_pattern.h"
+#include "pipelines/loads/channels/load_collector.h"
+#include "pipelines/scene/values/pressure_pattern.h"
 #include "tests/hard/hard_case.h"
 #include "tests/unit/pipelines/examples/bodies.h"
 

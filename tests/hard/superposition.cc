@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "pipelines/estimates/error_budget.h"
-#include "pipelines/superposition/superposition.h"
+#include "pipelines/judge/estimates/error_budget.h"
+#include "pipelines/superpose/envelope/superposition.h"
 #include "tests/hard/hard_case.h"
 #include "tests/verification/fem/bodies/two_layers.h"
 

@@ -12,7 +12,7 @@
 #include "kinetics/values/machine_refused.h"
 #include "kinetics/vibratory/torus_extremes.h"
 #include "kinetics/vibratory_mill.h"
-#include "pipelines/estimates/error_budget.h"
+#include "pipelines/judge/estimates/error_budget.h"
 #include "tests/hard/hard_case.h"
 #include "tests/unit/kinetics/vibratory/machines.h"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/scene/scene.h"
+#include "pipelines/scene/whole/scene.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "pipelines/scene/scene.h"
+#include "pipelines/scene/whole/scene.h"
 
 namespace measure {
 

@@ -17,12 +17,12 @@
 
 #include "fem/model/model.h"
 #include "meshes/values/refused.h"
-#include "pipelines/body_stages/shaft_torsion.h"
-#include "pipelines/cheap_models/axisymmetric_body.h"
-#include "pipelines/cheap_models/axisymmetric_refinement.h"
-#include "pipelines/common/errors.h"
-#include "pipelines/scene/scene.h"
-#include "pipelines/search/scene_run.h"
+#include "pipelines/base/common/errors.h"
+#include "pipelines/judge/stages/shaft_torsion.h"
+#include "pipelines/scene/whole/scene.h"
+#include "pipelines/search/cheap_models/axisymmetric_body.h"
+#include "pipelines/search/cheap_models/axisymmetric_refinement.h"
+#include "pipelines/search/loop/scene_run.h"
 #include "tests/benchmarks/harmonics/strict_section.h"
 #include "tests/benchmarks/promises/random_shaft_scene.h"
 

@@ -5,11 +5,11 @@
 #include <complex>
 
 #include "fem/axisymmetric/axisymmetric_responses.h"
-#include "pipelines/analysis/exclusion_border.h"
-#include "pipelines/body_figures/diagrams.h"
-#include "pipelines/cheap_models/axisymmetric_body.h"
-#include "pipelines/common/constants.h"
-#include "pipelines/superposition/superposition.h"
+#include "pipelines/base/common/constants.h"
+#include "pipelines/judge/analysis/exclusion_border.h"
+#include "pipelines/judge/figures/diagrams.h"
+#include "pipelines/search/cheap_models/axisymmetric_body.h"
+#include "pipelines/superpose/envelope/superposition.h"
 
 namespace harmonics {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/loads/body_mesh.h"
-#include "pipelines/loads/load_stage.h"
+#include "pipelines/loads/stage/body_mesh.h"
+#include "pipelines/loads/stage/load_stage.h"
 
 namespace harmonics {
 

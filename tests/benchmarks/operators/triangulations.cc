@@ -15,8 +15,8 @@
 
 #include "fem/triangulation/manifolds.h"
 #include "fem/triangulation/triangulation.h"
-#include "pipelines/loads/body_mesh.h"
-#include "pipelines/scene/scene.h"
+#include "pipelines/loads/stage/body_mesh.h"
+#include "pipelines/scene/whole/scene.h"
 #include "tests/benchmarks/solvers/benchmark_shaft.h"
 #include "tests/benchmarks/solvers/process.h"
 

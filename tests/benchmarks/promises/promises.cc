@@ -15,10 +15,10 @@
 
 #include "fem/model/model.h"
 #include "meshes/values/refused.h"
-#include "pipelines/common/errors.h"
-#include "pipelines/refinement/refinement.h"
-#include "pipelines/scene/scene.h"
-#include "pipelines/search/scene_run.h"
+#include "pipelines/base/common/errors.h"
+#include "pipelines/scene/whole/scene.h"
+#include "pipelines/search/loop/scene_run.h"
+#include "pipelines/search/refinement/refinement.h"
 #include "tests/benchmarks/promises/random_shaft_scene.h"
 #include "tests/benchmarks/promises/reference.h"
 

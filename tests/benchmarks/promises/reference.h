@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "pipelines/loads/load_stage.h"
+#include "pipelines/loads/stage/load_stage.h"
 
 namespace promises {
 

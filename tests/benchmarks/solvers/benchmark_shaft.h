@@ -5,7 +5,7 @@
 
 #include "fem/values/unit_load.h"
 #include "meshes/values/body_mesh.h"
-#include "pipelines/scene/scene.h"
+#include "pipelines/scene/whole/scene.h"
 
 namespace measure {
 

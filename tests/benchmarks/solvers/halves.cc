@@ -7,8 +7,8 @@
 
 #include "fem/common/memory.h"
 #include "fem/model/model.h"
-#include "pipelines/loads/body_mesh.h"
-#include "pipelines/scene/scene.h"
+#include "pipelines/loads/stage/body_mesh.h"
+#include "pipelines/scene/whole/scene.h"
 #include "tests/benchmarks/solvers/process.h"
 
 namespace measure {

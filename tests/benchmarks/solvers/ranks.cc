@@ -13,9 +13,9 @@
 
 #include "fem/model/model.h"
 #include "fem/ranks/ranks.h"
-#include "pipelines/loads/body_mesh.h"
-#include "pipelines/responses/response_files.h"
-#include "pipelines/scene/scene.h"
+#include "pipelines/loads/stage/body_mesh.h"
+#include "pipelines/respond/responses/response_files.h"
+#include "pipelines/scene/whole/scene.h"
 #include "tests/benchmarks/solvers/benchmark_shaft.h"
 #include "tests/benchmarks/solvers/process.h"
 

@@ -21,8 +21,8 @@
 #include <vector>
 
 #include "fem/model/model.h"
-#include "pipelines/loads/body_mesh.h"
-#include "pipelines/scene/scene.h"
+#include "pipelines/loads/stage/body_mesh.h"
+#include "pipelines/scene/whole/scene.h"
 #include "tests/benchmarks/operators/multigrid_comparison.h"
 #include "tests/benchmarks/operators/operator_comparison.h"
 #include "tests/benchmarks/operators/triangulations.h"

@@ -55,9 +55,9 @@ pressure_harmonics = 0)" + judged("[shaft.mesh]\nsectors = 8\n");
     const double related = place["related_gradient_1_m"].get<double>() * fillet_m, of_table = 2.3;
     EXPECT_GT(related, 0.9 * of_table) << method;
     EXPECT_LT(related, of_table * 1.05 + 0.82) << method;
-    // The neck of 60 mm by FKM's K_d (tests/unit/pipelines/fatigue/size_factors_of_fkm.cc), and what the run
-    // with that factor comes to. Turns red: the diameter of another segment, R_m alone scaled and not what
-    // follows.
+    // The neck of 60 mm by FKM's K_d (tests/unit/pipelines/base/fatigue/size_factors_of_fkm.cc), and what the
+    // run with that factor comes to. Turns red: the diameter of another segment, R_m alone scaled and not
+    // what follows.
     const std::string strength = json["bodies"]["shaft"]["fatigue_strength"];
     EXPECT_NE(strength.find("K_d at d_eff 60 mm would be 0.978 for structural steel (sample 40 mm)"),
               std::string::npos)

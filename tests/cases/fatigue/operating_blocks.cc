@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <regex>
 
 #include "tests/cases/program/field_tables.h"
 #include "tests/cases/program/small_shaft.h"
@@ -297,7 +298,7 @@ TEST(OperatingBlocks, HaveTheStressOfToesThatWereSolvedAsSubmodels) {
   const auto json = summary(directory / "out");
   const auto& chamber = json["bodies"]["chamber"];
   ASSERT_EQ(chamber["governing"]["kind"], "hot_spot") << "the test wants a toe that leads";
-  EXPECT_FALSE(chamber["hot_spots"][0].contains("extrapolated_from")) << "and was solved as a submodel";
+  EXPECT_TRUE(chamber["hot_spots"][0]["extrapolated_from"].is_null()) << "and was solved as a submodel";
   const double own_Pa = chamber["governing"]["value"];
   const auto& in_block = json["duty"]["blocks"]["own"]["bodies"]["chamber"];
   // The same sums in another order.
@@ -348,8 +349,8 @@ TEST(OperatingBlocks, TheShippedSceneOfAMillRuns) {
   EXPECT_TRUE(duty["places"]["chamber"][0]["weld_toe"].get<bool>()) << "toes of the webs last least";
   // All bodies in one list, by the lives over the blocks; the shaft's first place is printed wherever it
   // stands.
-  EXPECT_NE(outcome.out.find("fatigue of all bodies, over all blocks, shortest life first"),
-            std::string::npos);
+  const auto list = outcome.out.find("fatigue of all bodies, over all blocks, shortest life first");
+  ASSERT_NE(list, std::string::npos);
   const auto ranking = summary(directory / "out")["fatigue_ranking"];
   ASSERT_EQ(ranking.size(), duty["places"]["shaft"].size() + duty["places"]["chamber"].size());
   for (const std::string body : {"shaft", "chamber"}) {
@@ -358,9 +359,8 @@ TEST(OperatingBlocks, TheShippedSceneOfAMillRuns) {
                                  [&](const auto& place) { return place["body"] == body; });
     EXPECT_EQ((*at)["feature"], first["feature"]) << body;
     EXPECT_EQ((*at)["life_h"], first["life_h"]) << body;
-    const auto row =
-        std::to_string(at - ranking.begin() + 1) + "  " + body + ", " + first["feature"].get<std::string>();
-    EXPECT_NE(outcome.out.find(row), std::string::npos) << row;
+    const auto row = "\n  " + body + " +" + first["feature"].get<std::string>() + "  ";
+    EXPECT_TRUE(std::regex_search(outcome.out.substr(list), std::regex(row))) << row;
   }
   for (std::size_t i = 1; i < ranking.size(); ++i) {
     const auto &life = ranking[i]["life_h"], &before = ranking[i - 1]["life_h"];

@@ -78,7 +78,7 @@ std::vector<std::string> titles_of(const std::string& columns, const std::string
 }
 
 std::vector<Table> tables_of_readme() {
-  std::istringstream in(text_of(fs::path(SOURCE_DIR) / "pipelines/fields/README.md"));
+  std::istringstream in(text_of(fs::path(SOURCE_DIR) / "pipelines/base/fields/README.md"));
   std::vector<Table> tables;
   bool has_csv = false;
   for (std::string line; std::getline(in, line);) {

@@ -1,4 +1,4 @@
-/// The tables of fields in pipelines/fields/README.md beside the results of a run.
+/// The tables of fields in pipelines/base/fields/README.md beside the results of a run.
 #pragma once
 
 #include <filesystem>

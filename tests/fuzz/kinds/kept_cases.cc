@@ -1,6 +1,6 @@
 /// What is kept between runs: unit responses, and what is known of the iteration.
-#include "pipelines/responses/iteration_memory.h"
-#include "pipelines/responses/response_files.h"
+#include "pipelines/respond/responses/iteration_memory.h"
+#include "pipelines/respond/responses/response_files.h"
 #include "tests/fuzz/kinds/samples.h"
 #include "tests/fuzz/verdicts.h"
 

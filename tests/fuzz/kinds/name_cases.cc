@@ -4,11 +4,11 @@
 #include <regex>
 #include <set>
 
-#include "pipelines/channels/load_files.h"
-#include "pipelines/files/hdf5_file.h"
-#include "pipelines/loads/load_stage.h"
-#include "pipelines/scene/scene.h"
-#include "pipelines/tables/table_file.h"
+#include "pipelines/base/files/hdf5_file.h"
+#include "pipelines/loads/channels/load_files.h"
+#include "pipelines/loads/stage/load_stage.h"
+#include "pipelines/scene/tables/table_file.h"
+#include "pipelines/scene/whole/scene.h"
 #include "tests/fuzz/kinds/samples.h"
 #include "tests/fuzz/kinds/scene_cases.h"
 #include "tests/fuzz/verdicts.h"

@@ -1,7 +1,7 @@
 /// The whole program as a user starts it: exit codes, messages, and what it leaves.
 #include <nlohmann/json.hpp>
 
-#include "pipelines/result_files/manifest.h"
+#include "pipelines/write/files/manifest.h"
 #include "tests/fuzz/child.h"
 #include "tests/fuzz/kinds/results_cases.h"
 #include "tests/fuzz/kinds/samples.h"

@@ -1,10 +1,10 @@
 /// Result directories with damage: as `report` and the next run look at them.
 #include "tests/fuzz/kinds/results_cases.h"
 
-#include "pipelines/common/errors.h"
-#include "pipelines/report/html_report.h"
-#include "pipelines/result_files/manifest.h"
-#include "pipelines/result_files/staged_results.h"
+#include "pipelines/base/common/errors.h"
+#include "pipelines/write/files/manifest.h"
+#include "pipelines/write/files/staged_results.h"
+#include "pipelines/write/report/html_report.h"
 #include "tests/fuzz/kinds/samples.h"
 #include "tests/fuzz/verdicts.h"
 

@@ -4,11 +4,11 @@
 #include <stdexcept>
 
 #include "meshes/imported/apart.h"
-#include "pipelines/files/json_file.h"
-#include "pipelines/report/html_report.h"
-#include "pipelines/responses/iteration_memory.h"
-#include "pipelines/responses/response_files.h"
-#include "pipelines/result_files/manifest.h"
+#include "pipelines/base/files/json_file.h"
+#include "pipelines/respond/responses/iteration_memory.h"
+#include "pipelines/respond/responses/response_files.h"
+#include "pipelines/write/files/manifest.h"
+#include "pipelines/write/report/html_report.h"
 #include "tests/fuzz/child.h"
 #include "tests/fuzz/kinds/import_samples.h"
 #include "tests/fuzz/verdicts.h"

@@ -3,12 +3,12 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "pipelines/common/statistics.h"
-#include "pipelines/loads/load_stage.h"
-#include "pipelines/machine_reports/torsion_report.h"
-#include "pipelines/report/summary.h"
-#include "pipelines/scene/machine_kind.h"
-#include "pipelines/scene/scene.h"
+#include "pipelines/base/common/statistics.h"
+#include "pipelines/judge/verdict/torsion_report.h"
+#include "pipelines/loads/stage/load_stage.h"
+#include "pipelines/scene/whole/machine_kind.h"
+#include "pipelines/scene/whole/scene.h"
+#include "pipelines/write/report/summary.h"
 #include "tests/fuzz/kinds/samples.h"
 #include "tests/fuzz/kinds/scene_cases.h"
 #include "tests/fuzz/verdicts.h"

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "fem/values/vtk_order.h"
-#include "pipelines/calculix/calculix_model.h"
+#include "pipelines/command/calculix/calculix_model.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "pipelines/calculix/calculix_results.h"
+#include "pipelines/command/calculix/calculix_results.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 
 namespace {

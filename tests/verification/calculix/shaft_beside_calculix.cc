@@ -6,9 +6,9 @@
 #include <cstdlib>
 
 #include "fem/model/model.h"
-#include "pipelines/calculix/calculix_comparison.h"
-#include "pipelines/calculix/calculix_model.h"
-#include "pipelines/loads/body_mesh.h"
+#include "pipelines/command/calculix/calculix_comparison.h"
+#include "pipelines/command/calculix/calculix_model.h"
+#include "pipelines/loads/stage/body_mesh.h"
 #include "tests/benchmarks/solvers/benchmark_shaft.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "pipelines/common/stage_clock.h"
+#include "pipelines/base/common/stage_clock.h"
 #include "tests/unit/meshes/examples/example_chambers.h"
 #include "tests/unit/pipelines/examples/edited_scene.h"
 

@@ -4,8 +4,8 @@
 #include <random>
 
 #include "meshes/chamber/chamber_geometry.h"
-#include "pipelines/scene/scene.h"
-#include "pipelines/search/scene_run.h"
+#include "pipelines/scene/whole/scene.h"
+#include "pipelines/search/loop/scene_run.h"
 
 namespace chambers {
 

@@ -14,7 +14,7 @@ namespace {
 
 // Every toe is bounded, not only the governing one: a toe that is left out here is never looked at again. The
 // even mesh has 0.4 walls between the toes and their points; its own toes are off by 22 % at most
-// (pipelines/estimates/submodels.h), here by what it states of each.
+// (pipelines/judge/estimates/submodels.h), here by what it states of each.
 TEST(CoarseToes, AreBoundedByTheirStatedErrors) {
   const results_test::Directory directory;
   const auto scene = chambers::scene_around(chambers::small_chamber(), directory.path);

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "pipelines/estimates/fineness.h"
+#include "pipelines/judge/estimates/fineness.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 #include "tests/verification/chambers/chamber_scene.h"
 

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "pipelines/analysis/governing_stress.h"
-#include "pipelines/refinement/refinement.h"
+#include "pipelines/judge/analysis/governing_stress.h"
+#include "pipelines/search/refinement/refinement.h"
 #include "tests/unit/meshes/examples/example_chambers.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 #include "tests/verification/chambers/chamber_scene.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/channels/closure.h"
-#include "pipelines/channels/load_collector.h"
+#include "pipelines/loads/channels/closure.h"
+#include "pipelines/loads/channels/load_collector.h"
 
 namespace bodies {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinetics/vibratory_mill.h"
-#include "pipelines/bodies/chamber.h"
+#include "pipelines/loads/bodies/chamber.h"
 #include "tests/unit/pipelines/examples/bodies.h"
 #include "tests/unit/pipelines/examples/laboratory.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipelines/scene/scene.h"
+#include "pipelines/scene/whole/scene.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 
 namespace edited {

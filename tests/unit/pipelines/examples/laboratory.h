@@ -7,8 +7,8 @@
 #include "fem/values/body.h"
 #include "kinetics/vibratory_mill.h"
 #include "meshes/values/body_mesh.h"
-#include "pipelines/channels/load_collector.h"
-#include "pipelines/scene/scene.h"
+#include "pipelines/loads/channels/load_collector.h"
+#include "pipelines/scene/whole/scene.h"
 
 namespace laboratory {
 

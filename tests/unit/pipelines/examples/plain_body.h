@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <string>
 
-#include "pipelines/loads/body_mesh.h"
-#include "pipelines/loads/machine_masses.h"
-#include "pipelines/scene/scene.h"
+#include "pipelines/loads/stage/body_mesh.h"
+#include "pipelines/loads/stage/machine_masses.h"
+#include "pipelines/scene/whole/scene.h"
 #include "tests/unit/pipelines/examples/bodies.h"
 
 namespace plain {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fem/values/vtk_order.h"
-#include "pipelines/superposition/zones.h"
+#include "pipelines/superpose/envelope/zones.h"
 
 namespace examples {
 

@@ -8,11 +8,11 @@
 #include <map>
 #include <string>
 
-#include "pipelines/common/errors.h"
-#include "pipelines/files/atomic_file.h"
-#include "pipelines/files/kept_file.h"
-#include "pipelines/result_files/manifest.h"
-#include "pipelines/result_files/staged_results.h"
+#include "pipelines/base/common/errors.h"
+#include "pipelines/base/files/atomic_file.h"
+#include "pipelines/base/files/kept_file.h"
+#include "pipelines/write/files/manifest.h"
+#include "pipelines/write/files/staged_results.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 
 namespace staged_samples {

@@ -1,0 +1,161 @@
+/// Tables of fields: each figure of a result is declared once, as a row with its key, quantity, meaning and
+/// value. summary.json, CSV, the tables of terminal and page, and those of the README come from that row.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipelines/base/fields/json_values.h"
+#include "pipelines/base/fields/quantity.h"
+
+namespace pipelines {
+
+/// A field without its value: what the outputs of a row of summary.json need.
+struct Field {
+  std::string key;  ///< in summary.json before its unit; "safety_by.findley" lies in an object
+  Quantity quantity;
+  std::string meaning;     ///< for the README
+  std::string column;      ///< title in CSV before its unit; of effects and blocks, before their names
+  std::string label;       ///< over its column in tables for people; empty: it stands in none
+  bool is_detail = false;  ///< stands in the second table for people, beside the first field
+  bool is_in_csv = true, is_in_summary = true;
+  bool is_optional = false;  ///< without a value summary.json has no key, without any people see no column
+  /// What people read of a row of summary.json; empty: the value by its quantity.
+  std::function<std::string(const summary::Json& row)> shown;
+
+  /// "amplitude_Pa"
+  std::string json_key() const { return key + quantity.suffix; }
+};
+
+/// A field with its value of a `Row`. Its words chain, so that it reads as one line of a table:
+/// FieldOf<Zone>("volume", quantities::volume, "above the level", value).labelled("volume")
+template <typename Row>
+struct FieldOf : Field {
+  std::function<summary::Json(const Row&)> value;  ///< in SI, of the quantity's shape
+
+  FieldOf(std::string name, const Quantity& of, std::string what_it_means,
+          std::function<summary::Json(const Row&)> get)
+      : value(std::move(get)) {
+    key = name;
+    column = std::move(name);
+    quantity = of;
+    meaning = std::move(what_it_means);
+    is_in_csv = of.shape != Shape::structure;
+  }
+
+  /// People see it, under this title and its unit.
+  FieldOf labelled(std::string title) const {
+    auto field = *this;
+    field.label = std::move(title);
+    return field;
+  }
+  /// People see it, in the second table.
+  FieldOf detail(std::string title) const {
+    auto field = labelled(std::move(title));
+    field.is_detail = true;
+    return field;
+  }
+  /// With other digits than the quantity's.
+  FieldOf digits(const char* format) const {
+    auto field = *this;
+    field.quantity.format = format;
+    return field;
+  }
+  /// With a text made of the whole row, such as "8 h (3 to 27)".
+  FieldOf shown_as(std::function<std::string(const summary::Json& row)> text) const {
+    auto field = *this;
+    field.shown = std::move(text);
+    return field;
+  }
+  /// Under another title in CSV; of effects and blocks, before their names.
+  FieldOf in_column(std::string title) const {
+    auto field = *this;
+    field.column = std::move(title);
+    return field;
+  }
+  /// summary.json has it, a CSV file has not.
+  FieldOf without_csv() const {
+    auto field = *this;
+    field.is_in_csv = false;
+    return field;
+  }
+  /// A CSV file has it, summary.json has not.
+  FieldOf without_summary() const {
+    auto field = *this;
+    field.is_in_summary = false;
+    return field;
+  }
+  /// Where there is none, summary.json has no key; where no row has one, people see no column.
+  FieldOf optional() const {
+    auto field = *this;
+    field.is_optional = true;
+    return field;
+  }
+};
+
+template <typename Row>
+using FieldTable = std::vector<FieldOf<Row>>;
+
+/// One table after the other.
+template <typename Row>
+FieldTable<Row> joined(FieldTable<Row> first, const FieldTable<Row>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+/// The fields of a part of a row.
+/// @param of  the part: of(row)
+template <typename Row, typename Part, typename Of>
+FieldTable<Row> fields_of_part(const FieldTable<Part>& fields, const Of& of) {
+  FieldTable<Row> taken;
+  for (const auto& field : fields) {
+    taken.emplace_back(field.key, field.quantity, field.meaning,
+                       [=, get = field.value](const Row& row) { return get(of(row)); });
+    static_cast<Field&>(taken.back()) = field;
+  }
+  return taken;
+}
+
+/// Of a result that has no CSV file.
+template <typename Row>
+FieldTable<Row> without_csv(FieldTable<Row> fields) {
+  for (auto& field : fields) field.is_in_csv = false;
+  return fields;
+}
+
+/// A place in a row of summary.json, by a key with dots. Null where the row has none, as results of earlier
+/// versions.
+const summary::Json& value_of(const summary::Json& row, const Field& field);
+
+/// Puts a value there.
+void set_value(summary::Json& row, const Field& field, summary::Json value);
+
+/// A row with all fields, also those that summary.json leaves to CSV.
+template <typename Row>
+summary::Json whole_row(const FieldTable<Row>& fields, const Row& of) {
+  auto json = summary::Json::object();
+  for (const auto& field : fields) set_value(json, field, field.value(of));
+  return json;
+}
+
+/// A row as summary.json has it.
+template <typename Row>
+summary::Json summary_row(const FieldTable<Row>& fields, const Row& of) {
+  auto json = summary::Json::object();
+  for (const auto& field : fields) {
+    if (!field.is_in_summary) continue;
+    auto value = field.value(of);
+    if (!value.is_null() || !field.is_optional) set_value(json, field, std::move(value));
+  }
+  return json;
+}
+
+/// The fields without their values.
+template <typename Row>
+std::vector<Field> fields_of(const FieldTable<Row>& fields) {
+  return {fields.begin(), fields.end()};
+}
+
+}  // namespace pipelines

@@ -1,0 +1,35 @@
+#include "pipelines/command/options/scene_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace pipelines {
+
+Verbosity SceneOptions::verbosity() const {
+  return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
+}
+
+CLI::App* add_scene_command(CLI::App& app, const char* name, const char* description, SceneOptions& options) {
+  auto* command = app.add_subcommand(name, description);
+  command->add_option("scene", options.scene, "scene file (TOML)")->required();
+  command
+      ->add_option("--set", options.settings,
+                   "KEY=VALUE: a key of the scene as if the file said so; may be repeated")
+      ->allow_extra_args(false);
+  command->add_flag("-q,--quiet", options.quiet, "no progress");
+  command->add_flag("-v,--verbose", options.verbose, "more progress");
+  return command;
+}
+
+void add_threads_option(CLI::App& command, int& n_threads, ChosenCommand& chosen) {
+  const auto keep = [&](const int& given) { n_threads = chosen.n_threads = given; };
+  command.add_option_function<int>("--threads", keep, "threads to use (default: all cores)")
+      ->check(CLI::Range(1, 1024));
+}
+
+void add_results_option(CLI::App& command, std::filesystem::path& output) {
+  command.add_option(
+      "-o,--output", output,
+      "result directory (default: results/<scene>, or <scene>-2 ... beside results of another --set)");
+}
+
+}  // namespace pipelines

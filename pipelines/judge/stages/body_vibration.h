@@ -1,0 +1,17 @@
+/// A body's natural frequencies beside its loads.
+#pragma once
+
+#include "pipelines/judge/analysis/body_analysis.h"
+
+namespace pipelines {
+
+/// Natural frequencies and dynamic amplification, if the body asks for them; the latter also as an entry of
+/// the budgets of the peak and of the largest hot-spot stress.
+/// @param history  of the load stage, that the analysis' loads were distributed from
+void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
+                   BodyAnalysis& analysis, StageClock& clock);
+
+/// The entries of the budgets alone, of BodyAnalysis::vibration; nothing without it.
+void enter_vibration(BodyAnalysis& analysis);
+
+}  // namespace pipelines

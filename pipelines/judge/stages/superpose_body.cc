@@ -1,0 +1,199 @@
+#include "pipelines/judge/stages/superpose_body.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "pipelines/judge/analysis/crest_elsewhere.h"
+#include "pipelines/judge/analysis/load_edge.h"
+#include "pipelines/judge/analysis/load_patch.h"
+#include "pipelines/judge/estimates/submodels.h"
+#include "pipelines/judge/stages/place_errors.h"
+#include "pipelines/judge/stages/respond.h"
+#include "pipelines/judge/stages/zone_volume_errors.h"
+#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/superpose/envelope/finite_stress.h"
+#include "pipelines/superpose/envelope/stress_shares.h"
+#include "pipelines/superpose/envelope/zone_parts.h"
+
+namespace pipelines {
+namespace {
+
+/// The ports that a mill's charge presses on.
+std::vector<std::string> walls_under_charge(const BodyAnalysis& analysis) {
+  std::vector<std::string> walls;
+  for (const auto& port : analysis.mesh.ports)
+    if (usual_pressure(analysis.scene, port.name).is_charge) walls.push_back(port.name);
+  return walls;
+}
+
+Peak headline(const BodyAnalysis& analysis) {
+  const auto& maximum = analysis.envelope.von_mises;
+  Peak peak;
+  peak.node = peak_node(maximum.value_Pa, analysis.places);
+  std::copy_n(&analysis.responses.nodes.xyz_m[3 * peak.node], 3, peak.position_m.begin());
+  peak.value_Pa = maximum.value_Pa[peak.node];
+  peak.instant = maximum.instant[peak.node];
+  peak.stress_Pa = maximum.stress_Pa[peak.node];
+  peak.place = analysis.places.place[peak.node];
+  peak.feature = feature_at(analysis.responses.nodes, analysis.places, peak.node);
+  peak.safety = analysis.scene.yield_strength_Pa / peak.value_Pa;
+  peak.effect_share =
+      shares_of_stress(unit_stresses_at(analysis.responses, peak.node), analysis.loads.history, peak.instant)
+          .effects;
+  peak.errors = errors_at({{{peak.node, 1.0}}, peak.instant}, analysis);
+  return peak;
+}
+
+/// Of the weld toe with the largest stress, which may govern.
+void estimate_error_of_largest_toe(BodyAnalysis& analysis) {
+  if (analysis.hot_spots.empty()) return;
+  auto& largest = analysis.hot_spots.front();
+  analysis.hot_spot_errors = errors_at(stress_point(largest), analysis);
+  largest.error_Pa = analysis.hot_spot_errors.numerical_Pa();
+}
+
+/// Of the first zones, those that are shown, and of the other weld toes.
+/// @param judged  places whose errors count instead
+void estimate_errors_shown(BodyAnalysis& analysis, const std::vector<PlaceStress>& judged) {
+  const auto is_judged = [&](const std::string& feature) {
+    return std::any_of(judged.begin(), judged.end(), [&](const PlaceStress& place) {
+      return place.feature == feature && place.value_Pa > 0;
+    });
+  };
+  auto& zones = analysis.zones.zones;
+  for (std::size_t i = 0; i < std::min(n_zones_shown, zones.size()); ++i)
+    if (!is_judged(zones[i].feature))
+      zones[i].error_Pa = errors_at({{{zones[i].peak_node, 1.0}}, zones[i].instant}, analysis).numerical_Pa();
+  for (std::size_t i = 1; i < analysis.hot_spots.size(); ++i)
+    if (auto& spot = analysis.hot_spots[i]; !is_judged(spot.name))
+      spot.error_Pa = errors_at(stress_point(spot), analysis).numerical_Pa();
+}
+
+/// Whether cells of the body were solved that submodels can cut: cheap models have none.
+bool has_cells(const fem::UnitResponses& responses) {
+  return responses.nodes.n_cells() > 0 && responses.nodes.degree == 2 &&
+         !responses.energy_error.norm_sqrtJ.empty();
+}
+
+/// Of the body's envelope and peak.
+Zones zones_of(const BodyAnalysis& analysis, const ZoneRule& rule) {
+  const double yield_Pa = analysis.scene.yield_strength_Pa;
+  return find_zones(analysis.responses.nodes, analysis.envelope.von_mises, analysis.places,
+                    zone_level_Pa(rule, analysis.peak.value_Pa, yield_Pa), yield_Pa);
+}
+
+/// Wall time.
+template <typename Work>
+double seconds_taken_by(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+double zone_level_Pa(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
+  return rule.share * (rule.reference == ZoneRule::Reference::peak ? peak_Pa : yield_Pa);
+}
+
+BodyAnalysis superpose_again(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
+                             BodyAnalysis& before, bool needs_submodels, int n_threads, StageClock& clock) {
+  KnownBefore known{{}, std::move(before.hot_spots), needs_submodels};
+  if (have_same_values(before.loads.history, loads.history)) known.envelope = std::move(before.envelope);
+  auto after = superpose_body(body, meshed, std::move(loads), std::move(before.responses), n_threads, clock,
+                              std::move(known));
+  after.responses_reused = before.responses_reused;
+  after.warnings = std::move(before.warnings);
+  after.solve_s = before.solve_s;
+  if (after.superpose_s == 0) after.superpose_s = before.superpose_s;
+  return after;
+}
+
+BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
+                            fem::UnitResponses responses, int n_threads, StageClock& clock,
+                            KnownBefore known) {
+  const ShaftShape* shaft = body.shaft();
+  BodyAnalysis analysis;
+  analysis.scene = body;
+  analysis.mesh = meshed.mesh;
+  analysis.masses = meshed.masses;
+  analysis.geometry_error = meshed.geometry_error;
+  analysis.loads = std::move(loads);
+  analysis.responses = std::move(responses);
+  require_finite(analysis.responses);
+  analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
+  require_closure(body.name, analysis.closure);
+
+  const bool is_known = known.envelope.has_value();
+  clock.run("superpose", [&] {
+    if (is_known)
+      analysis.envelope = std::move(*known.envelope);
+    else
+      analysis.superpose_s = seconds_taken_by([&] {
+        analysis.envelope = envelope(analysis.loads.history, analysis.responses, threads(n_threads));
+      });
+  });
+  require_finite(body.name, analysis.envelope);
+  clock.run("zones", [&] {
+    analysis.places = locate_nodes(analysis.responses.nodes, analysis.mesh.features, analysis.mesh.ports,
+                                   analysis.mesh.sharp_edges, walls_under_charge(analysis));
+    analysis.peak = headline(analysis);
+    analysis.principal_node = peak_node(analysis.envelope.principal.value_Pa, analysis.places);
+    analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
+  });
+  if (known.needs_submodels && !analysis.hot_spots.empty() && has_cells(analysis.responses))
+    clock.run("submodels", [&] {
+      resolve_hot_spots(meshed.mesh.hot_spots, analysis.responses, meshed.body, analysis.loads,
+                        analysis.hot_spots, known.hot_spots);
+    });
+  clock.run("zones", [&] { estimate_error_of_largest_toe(analysis); });
+  clock.run("superpose", [&] {
+    const double crest_s = seconds_taken_by([&] { add_crest_elsewhere(analysis, threads(n_threads)); });
+    if (!is_known) analysis.superpose_s += crest_s;
+    add_load_patch_error(analysis);
+    add_load_edge_error(analysis);
+  });
+  if (shaft != nullptr && meshed.mesh.sections.size() > 1)
+    analysis.diagrams = clock.run("sections", [&] {
+      return section_diagrams(analysis.loads, analysis.responses, analysis.mesh, shaft->geometry,
+                              body.material.density_kg_m3, kind_of(body).supporting_ports(body));
+    });
+  return analysis;
+}
+
+void add_zones(const ZoneRule& rule, BodyAnalysis& analysis) {
+  analysis.zones = divided(zones_of(analysis, rule), analysis.responses.nodes, analysis.envelope.von_mises,
+                           analysis.places);
+  if (analysis.method == Method::beam)  // its cells span from the surface to the axis
+    for (auto& zone : analysis.zones.zones) zone.volume_m3 = std::numeric_limits<double>::quiet_NaN();
+  analysis.zone_causes = causes_of(analysis.zones, analysis.responses, analysis.loads.history);
+  estimate_errors_shown(analysis, analysis.place_stresses);
+  take_zone_errors(analysis);
+  estimate_volume_errors(analysis);
+}
+
+BodyAnalysis under_other_loads(BodyAnalysis analysis, const MeshedBody& meshed, BodyLoads loads,
+                               Envelope leading, const ZoneRule* zones) {
+  analysis.loads = std::move(loads);
+  analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
+  require_closure(analysis.scene.name, analysis.closure);
+  analysis.envelope = std::move(leading);
+  require_finite(analysis.scene.name, analysis.envelope);
+  analysis.peak = headline(analysis);
+  analysis.zones = zones != nullptr ? zones_of(analysis, *zones) : Zones();
+  analysis.zone_causes.clear();
+  analysis.diagrams.reset();
+  const auto before = std::move(analysis.hot_spots);
+  analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
+  const bool resolved =
+      std::any_of(before.begin(), before.end(), [](const auto& spot) { return spot.resolved != nullptr; });
+  if (resolved)
+    resolve_hot_spots(meshed.mesh.hot_spots, analysis.responses, meshed.body, analysis.loads,
+                      analysis.hot_spots, before);
+  estimate_error_of_largest_toe(analysis);
+  estimate_errors_shown(analysis, {});
+  return analysis;
+}
+
+}  // namespace pipelines

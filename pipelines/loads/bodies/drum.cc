@@ -1,0 +1,123 @@
+#include "pipelines/loads/bodies/drum.h"
+
+#include <cmath>
+
+#include "pipelines/base/common/constants.h"
+#include "pipelines/base/names/name_lists.h"
+#include "pipelines/loads/bodies/planetary_fields.h"
+#include "pipelines/loads/stage/mass_comparison.h"
+#include "pipelines/scene/bodies/scene_body.h"
+#include "pipelines/scene/values/effect_names.h"
+
+namespace pipelines {
+
+using Eigen::Array2Xd;
+using Eigen::Array3Xd;
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+namespace {
+
+class DrumKind : public BodyKind {
+public:
+  static constexpr const char* spin = "drum_spin";  // its own effect
+  // Its ports.
+  static constexpr const char *wall = "inner_wall", *trunnion_1 = "trunnion_1", *trunnion_2 = "trunnion_2",
+                              *pulley = "pulley_seat";
+
+  std::string machine_type() const override { return "planetary_mill"; }
+  std::vector<std::string> tables() const override { return {"drum"}; }
+
+  BodyOptions read_options(SceneTable&, const Scene&) const override { return DrumOptions{}; }
+  ContourRules contour_rules(const Scene&, const BodyScene&) const override {
+    ContourRules rules;
+    rules.ports = {wall, trunnion_1, trunnion_2, pulley};
+    rules.middle = wall;
+    return rules;
+  }
+  std::vector<std::string> bearing_loads(const BodyScene&) const override { return {trunnion_1, trunnion_2}; }
+  std::optional<double> seat_speed_rad_s(const Scene& scene, const BodyScene&) const override {
+    const auto& mill = std::get<kinetics::PlanetaryMill>(scene.machine);
+    return mill.speed_rad_s * kinetics::planetary_geometry(mill).relative_speed_ratio;
+  }
+  std::vector<kinetics::EffectInfo> own_effects() const override {
+    return {{spin, "Centrifugal field of the drum's own spin, without a resultant; from its mesh.",
+             "coupling 4"}};
+  }
+  bool shares_masses() const override { return true; }
+  std::optional<std::string> usual_difference_port(const BodyScene&) const override { return pulley; }
+  void agree_masses(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
+                    MassAgreement& result) const override {
+    auto& mill = std::get<kinetics::PlanetaryMill>(result.machine);
+    auto& attached = result.attached[body.name].structure;
+    attached = added_masses(body, meshed.mesh, "");
+    PlanarMass drum = planar_mass(meshed.masses);
+    drum += planar_mass(attached);
+    const bool open = is_open(scene, "drum");
+    if (open) mill.drum_mass_kg = drum.mass_kg;
+    MassComparison comparison(body, result.figures);
+    PlanarMass rest;
+    rest.mass_kg =
+        comparison.compare("drum mass", "kg", mill.drum_mass_kg, drum.mass_kg, open, body.difference_port);
+    comparison.compare_centre("drum first moment", drum, body.difference_port,
+                              "the drum's centre is on its axis: balance it by another added mass");
+    rest.x_kg_m = -drum.x_kg_m;  // the load stage has its centre on the axis
+    rest.y_kg_m = -drum.y_kg_m;
+    add_difference(attached, body.difference_port, rest);
+  }
+  BodyLoads distribute(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
+                       const LoadedBody& loaded, const MassAgreement& masses) const override {
+    return distribute_drum(history, std::get<kinetics::PlanetaryMill>(masses.machine), loaded,
+                           {scene.effects, masses.attached.at(body.name).structure});
+  }
+  std::vector<std::string> supporting_ports(const BodyScene&) const override {
+    return {trunnion_1, trunnion_2};
+  }
+  double spin_Hz(const Scene&, const BodyScene&, const kinetics::LoadHistory& loads) const override {
+    return std::abs(loads.quantity("drum_relative_speed").values.mean()) / (2 * pi);
+  }
+};
+
+}  // namespace
+
+BodyLoads distribute_drum(const kinetics::LoadHistory& loads, const kinetics::PlanetaryMill& mill,
+                          const LoadedBody& body, const DrumLoading& loading) {
+  planetary::require_equilibrium(loads);
+  const ArrayXd& psi = loads.quantity("psi").values;
+  LoadCollector collector(body, loads.effects, loads.n_instants(), planetary::typical_force(loads));
+  const auto enter = [&](const std::string& role, const std::string& port) {
+    if (!loads.has_resultant(role)) return;
+    for (const auto& part : loads.resultant(role).contributions) {
+      collector.force(port, part.effect, turned(part.load.topRows<2>(), psi));
+      collector.torque(port, part.effect, part.load.row(2).transpose());
+    }
+  };
+  enter("inner_wall", DrumKind::wall);
+  enter("pulley", DrumKind::pulley);
+
+  const auto accelerate = [&](const std::string& effect, const AccelerationField& field) {
+    if (!contains(loading.effects, effect)) return;
+    collector.accelerate(body.region(), effect, field);
+    for (const auto& mass : loading.attached) collector.accelerate(mass, effect, field);
+  };
+  accelerate(effect_name::drum_transport,
+             planetary::translation(turned(planetary::transport(loads, mill), psi)));
+  accelerate(effect_name::drum_gravity,
+             planetary::translation(turned(planetary::gravity(loads, mill.gravity_m_s2), psi)));
+  accelerate(DrumKind::spin, {{}, {}, loads.quantity("drum_speed").values.square()});
+
+  std::map<std::string, Array2Xd> reaction;
+  for (const auto& part : loads.resultant("trunnions").contributions)
+    reaction[part.effect] = turned(part.load.topRows<2>(), psi);
+  collector.react(DrumKind::trunnion_1, DrumKind::trunnion_2, reaction);
+  for (const char* port : {DrumKind::wall, DrumKind::pulley, DrumKind::trunnion_1, DrumKind::trunnion_2})
+    collector.pressure(port);
+  return collector.finish();
+}
+
+const BodyKind& drum_kind() {
+  static const DrumKind kind;
+  return kind;
+}
+
+}  // namespace pipelines

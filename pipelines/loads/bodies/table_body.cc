@@ -1,0 +1,271 @@
+#include "pipelines/loads/bodies/table_body.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "pipelines/base/common/constants.h"
+#include "pipelines/base/common/errors.h"
+#include "pipelines/loads/channels/closure.h"
+#include "pipelines/loads/stage/machine_masses.h"
+#include "pipelines/scene/bodies/scene_body.h"
+#include "pipelines/scene/bodies/scene_body_parts.h"
+
+namespace pipelines {
+
+using Eigen::Array2Xd;
+using Eigen::Array3Xd;
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+namespace {
+
+const char* const only_accelerations =
+    "a force or moment on \"volume\": the body as a whole takes ax, ay, az and spin; name a port";
+
+/// One load beside the planar resultants, "<port>.<component>".
+void enter_table_load(LoadCollector& collector, const LoadedBody& body, const std::string& effect,
+                      const kinetics::Quantity& load) {
+  const auto dot = load.name.rfind('.');
+  const std::string port = load.name.substr(0, dot), component = load.name.substr(dot + 1);
+  const ArrayXd& values = load.values;
+  if (port == "volume") {
+    AccelerationField field{Array3Xd::Zero(3, values.size()), {}, {}};
+    if (component == "ax" || component == "ay")
+      field.translation_m_s2.row(component == "ax" ? 0 : 1) = values.transpose();
+    else
+      field.translation_m_s2.resize(3, 0);
+    if (component == "fz" || component == "mx" || component == "my")
+      throw StageRefused("the load \"" + load.name + "\": " + only_accelerations);
+    if (component == "az") field.angular_rad_s2 = values;
+    if (component == "spin") field.spin_rad2_s2 = values;
+    return collector.accelerate(body.region(), effect, field);
+  }
+  if (component == "fz") return collector.axial_force(port, effect, values);
+  if (component != "mx" && component != "my")
+    throw StageRefused("the load \"" + load.name + "\": \"" + component +
+                       "\" belongs to the whole body; write \"volume." + component + "\"");
+  Array2Xd moment = Array2Xd::Zero(2, values.size());
+  moment.row(component == "mx" ? 0 : 1) = values.transpose();
+  collector.tilt(port, effect, moment);
+}
+
+/// Ports that the loads of a table enter by; end faces are always there.
+void add_table_ports(const Scene& scene, std::vector<std::string>& ports) {
+  for (const auto& load : std::get<kinetics::LoadTable>(scene.machine).loads) {
+    const bool is_face = load.port == "end_1" || load.port == "end_2" || load.port == "volume";
+    if (!is_face && scene.has_effect(load.effect) &&
+        std::find(ports.begin(), ports.end(), load.port) == ports.end())
+      ports.push_back(load.port);
+  }
+}
+
+/// Forces need a surface, accelerations the whole body.
+void check_table_loads(SceneTable& body, const Scene& scene) {
+  for (const auto& load : std::get<kinetics::LoadTable>(scene.machine).loads) {
+    const auto& c = load.component;
+    const bool is_field = c == "ax" || c == "ay" || c == "az" || c == "spin";
+    if (!scene.has_effect(load.effect) || is_field == (load.port == "volume")) continue;
+    const std::string name = "the load \"" + load.port + "." + c + "\" ";
+    body.refuse_missing("", is_field ? name + "belongs to the whole body; write \"volume." + c + "\""
+                                     : name +
+                                           "has no place to enter: the body as a whole takes ax, ay, az "
+                                           "and spin; name a port");
+  }
+}
+
+std::string first_port(const BodyLoads& loads) {
+  for (const auto& load : loads.history.channels)
+    if (const auto dot = load.name.find('.'); dot != std::string::npos && load.name.rfind("volume", 0) != 0)
+      return load.name.substr(0, dot);
+  return "end_1";
+}
+
+/// The sizes of what is left over: across, along, tilting, turning; 0 where that is round-off.
+struct Remainder {
+  double across_N = 0, along_N = 0, tilting_Nm = 0, turning_Nm = 0;
+};
+
+Remainder remainder(const Closure& closure) {
+  const auto force = [&](std::size_t c) {
+    return closure.force[c] > Closure::limit ? closure.force[c] * closure.force_scale_N[c] : 0.0;
+  };
+  const auto moment = [&](std::size_t c) {
+    return closure.moment[c] > Closure::limit ? closure.moment[c] * closure.moment_scale_Nm[c] : 0.0;
+  };
+  return {std::max(force(0), force(1)), force(2), std::max(moment(0), moment(1)), moment(2)};
+}
+
+const TableBodyOptions& table_options(const BodyScene& body) {
+  return std::get<TableBodyOptions>(body.options);
+}
+
+class TableBodyKind : public BodyKind {
+public:
+  std::string machine_type() const override { return "load_table"; }
+  std::vector<std::string> tables() const override { return {"shaft", "part"}; }
+
+  BodyOptions read_options(SceneTable& table, const Scene& scene) const override {
+    TableBodyOptions options;
+    table.know("bearings");
+    table.know("clamp");
+    if (table.has("clamp")) {
+      options.clamp = table.text("clamp");
+      for (const char* other : {"bearings", "axial_support", "torque_support"})
+        if (table.has(other))
+          table.refuse(other, "stands beside clamp, which takes all forces and moments; remove one of both");
+    } else if (table.has("bearings")) {
+      auto& bearings = options.bearings;
+      for (const auto& name : table.texts("bearings")) bearings.push_back(name.text);
+      if (bearings.size() != 2 || bearings[0] == bearings[1])
+        table.refuse("bearings",
+                     "needs the ports of two bearings; one port that holds the body is its clamp");
+    }
+    for (auto* support : {&options.axial_support, &options.torque_support}) {
+      const char* key = support == &options.axial_support ? "axial_support" : "torque_support";
+      table.know(key);
+      if (table.has(key)) *support = table.text(key);
+    }
+    check_table_loads(table, scene);
+    return options;
+  }
+  ContourRules contour_rules(const Scene& scene, const BodyScene& body) const override {
+    ContourRules rules;
+    rules.any_port = true;
+    rules.ports = table_options(body).bearings;
+    add_table_ports(scene, rules.ports);
+    return rules;
+  }
+  void check_ports(SceneTable& table, const BodyScene& body) const override {
+    const auto known = ports_of(body).all;
+    const auto& options = table_options(body);
+    check_port(table, "clamp", options.clamp, known, "the ports of this body");
+    check_port(table, "axial_support", options.axial_support, known, "the ports of this body");
+    check_port(table, "torque_support", options.torque_support, known, "the ports of this body");
+  }
+  std::vector<std::string> bearing_loads(const BodyScene& body) const override {
+    return table_options(body).bearings;
+  }
+  std::optional<double> seat_speed_rad_s(const Scene& scene, const BodyScene& body) const override {
+    if (body.name != "shaft") return std::nullopt;
+    return std::get<kinetics::LoadTable>(scene.machine).speed_rad_s;
+  }
+  BodyLoads distribute(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
+                       const LoadedBody& loaded, const MassAgreement&) const override {
+    try {
+      return distribute_table_at(history.phi_rad, std::get<kinetics::LoadTable>(scene.machine), scene.effects,
+                                 scene.sampling, loaded, table_options(body));
+    } catch (const StageRefused& refused) {
+      throw StageRefused(body.origin + ": " + refused.what());
+    }
+  }
+  void require_supports(const BodyScene& body, const BodyLoads& loads,
+                        const std::vector<RegionMass>& regions) const override {
+    if (loads.unit_loads.empty() || is_clamped(body)) return;
+    const auto& table = table_options(body);
+    std::vector<std::array<double, 6>> wanted;
+    for (const auto& load : loads.unit_loads) wanted.push_back(wanted_resultant(load, regions));
+    const auto left = remainder(check_closure(loads, wanted, regions));
+    const std::string port = first_port(loads);
+    std::string text;
+    const auto refuse = [&](const char* key, const std::string& what) {
+      text += fmt::format("{}{}.{}: is missing: {}", text.empty() ? "" : "\n", body.origin, key, what);
+    };
+    if (table.bearings.empty() && (left.across_N > 0 || left.tilting_Nm > 0))
+      refuse("bearings",
+             fmt::format("the loads leave up to {:.4g} N across the axis and {:.4g} N m of tilting "
+                         "that nothing carries; name the ports of two bearings, as bearings = "
+                         "[\"bearing_1\", \"bearing_2\"], or the port that holds the body, as clamp",
+                         left.across_N, left.tilting_Nm));
+    if (table.axial_support.empty() && left.along_N > 0)
+      refuse("axial_support",
+             fmt::format("the loads leave up to {:.4g} N along the axis that nothing carries; "
+                         "name the port that takes them, as axial_support = \"{}\"",
+                         left.along_N, port));
+    if (table.torque_support.empty() && left.turning_Nm > 0)
+      refuse("torque_support",
+             fmt::format("the loads leave a torque of up to {:.4g} N m that nothing carries; "
+                         "name the port that takes it, as torque_support = \"{}\"",
+                         left.turning_Nm, port));
+    if (!text.empty()) throw StageRefused(text);
+  }
+  std::string missing_support(const BodyScene& body, const Closure& closure) const override {
+    const auto& table = table_options(body);
+    if (is_clamped(body)) return "";
+    if (closure.moment[2] > Closure::limit && table.torque_support.empty())
+      return "name the port that takes torque, torque_support in [" + body.name + "]";
+    if (closure.force[2] > Closure::limit && table.axial_support.empty())
+      return "name the port that takes axial forces, axial_support in [" + body.name + "]";
+    return table.bearings.empty() ? "name the ports of two bearings, bearings in [" + body.name + "]" : "";
+  }
+  std::vector<std::string> supporting_ports(const BodyScene& body) const override {
+    const auto& table = table_options(body);
+    return table.clamp.empty() ? table.bearings : std::vector<std::string>{table.clamp};
+  }
+  bool is_clamped(const BodyScene& body) const override { return !table_options(body).clamp.empty(); }
+  /// Loads on a shaft may be along axes that turn with it; a part's are along its own.
+  std::vector<double> spins_Hz(const Scene&, const BodyScene& body,
+                               const kinetics::LoadHistory& loads) const override {
+    if (body.name != "shaft") return {0};
+    return {0, std::abs(loads.speed_rad_s.mean()) / (2 * pi)};
+  }
+};
+
+}  // namespace
+
+BodyLoads distribute_table(const kinetics::LoadTable& table, const std::vector<std::string>& effects,
+                           const kinetics::TimeGrid& grid, const LoadedBody& body,
+                           const TableBodyOptions& options) {
+  const auto phi_rad = kinetics::compute_loads(table, effects, grid).phi_rad;
+  return distribute_table_at(phi_rad, table, effects, grid, body, options);
+}
+
+BodyLoads distribute_table_at(const Eigen::ArrayXd& phi_rad, const kinetics::LoadTable& table,
+                              const std::vector<std::string>& effects, const kinetics::TimeGrid& grid,
+                              const LoadedBody& body, const TableBodyOptions& options) {
+  const auto all = kinetics::loads_at(table, effects, grid, phi_rad);
+  double scale_N = 0;
+  for (const auto& resultant : all.resultants)
+    scale_N = std::max(scale_N, resultant.total.topRows<2>().abs().maxCoeff());
+  LoadCollector collector(body, all.effects, all.n_instants(), scale_N);
+  for (const auto& effect : all.effects) {
+    const auto own = kinetics::loads_at(table, {effect}, grid, phi_rad);
+    for (const auto& resultant : own.resultants) {
+      if (resultant.role == "volume")
+        throw StageRefused("the effect \"" + effect + "\": " + only_accelerations);
+      if (resultant.total.topRows<2>().abs().maxCoeff() > 0)
+        collector.force(resultant.role, effect, resultant.total.topRows<2>());
+      if (resultant.total.row(2).abs().maxCoeff() > 0)
+        collector.torque(resultant.role, effect, resultant.total.row(2).transpose());
+    }
+    for (const auto& quantity : own.quantities)
+      if (quantity.name.find('.') != std::string::npos) enter_table_load(collector, body, effect, quantity);
+  }
+  // Of the loads; the bearings' follows with what they carry altogether.
+  const auto& bearings = options.bearings;
+  for (const auto& port : body.ports)
+    if (std::find(bearings.begin(), bearings.end(), port.name) == bearings.end())
+      collector.pressure(port.name);
+  // Along the axis first: off the axis of an eccentric port, that tilts the body, which the bearings then
+  // carry.
+  if (!options.axial_support.empty()) collector.react_axial(options.axial_support);
+  if (!options.clamp.empty()) {  // what it carries spreads over the whole port
+    collector.react_axial(options.clamp);
+    collector.react_force(options.clamp);
+    collector.react_tilt(options.clamp);
+    collector.react_torque(options.clamp);
+  }
+  if (bearings.size() == 2) {
+    collector.react(bearings[0], bearings[1]);
+    for (const auto& bearing : bearings) collector.pressure(bearing);
+  }
+  if (!options.torque_support.empty()) collector.react_torque(options.torque_support);
+  return collector.finish();
+}
+
+const BodyKind& table_body_kind() {
+  static const TableBodyKind kind;
+  return kind;
+}
+
+}  // namespace pipelines

@@ -1,0 +1,79 @@
+#include "pipelines/scene/bodies/scene_body.h"
+
+#include "pipelines/scene/bodies/scene_body_parts.h"
+#include "pipelines/scene/bodies/scene_fatigue.h"
+#include "pipelines/scene/whole/body_kind.h"
+
+namespace pipelines {
+namespace {
+
+void read_added_masses(SceneTable& table, const BodyKind& kind, BodyScene& body) {
+  table.know("added_masses");
+  if (table.has("added_masses"))
+    for (SceneTable& entry : table.tables("added_masses")) {
+      AddedMass added;
+      added.name = entry.name("name");
+      added.port = entry.text("port");
+      check_port(entry, "port", added.port, ports_of(body).all, "the ports of this body");
+      added.mass_kg = entry.quantity("mass", "kg", positive(1e6));
+      added.polar_inertia_kg_m2 =
+          entry.quantity_or("polar_inertia", "kg m2", not_negative(1e9), 0, "about its own centre");
+      entry.know("offset");
+      if (entry.has("offset")) {
+        const auto offset = entry.quantities("offset", "m", between(-100, 100), 2);
+        if (offset.size() == 2) added.centre_m = {offset[0], offset[1]};
+      }
+      kind.read_region(entry, added);
+      entry.finish();
+      body.added_masses.push_back(added);
+    }
+  const auto usual = kind.usual_difference_port(body);
+  if (!usual) return;
+  body.difference_port =
+      table.text_or("difference_port", *usual, "carries what the machine's masses and the mesh's differ by");
+  check_port(table, "difference_port", body.difference_port, ports_of(body).all, "the ports of this body");
+}
+
+void read_solver(SceneTable& table, BodyScene& body) {
+  const std::string solver =
+      table.text_or("solver", "automatic", "the faster one of those that suit the body");
+  if (solver == "direct") body.solver = fem::Solver::direct;
+  if (solver == "iterative") body.solver = fem::Solver::iterative;
+  if (!solver.empty() && solver != "automatic" && solver != "direct" && solver != "iterative")
+    table.refuse("solver",
+                 "write \"automatic\", \"direct\" (a factorisation) or \"iterative\" (conjugate gradients)");
+}
+
+void read_natural_frequencies(SceneTable& table, BodyScene& body) {
+  constexpr int most = 50;  // above them a body's modes are no concern of its bearings' harmonics
+  table.know("natural_frequencies");
+  if (table.has("natural_frequencies"))
+    body.natural_frequencies = table.count_or("natural_frequencies", 0, most, 0, "not asked for");
+}
+
+}  // namespace
+
+BodyScene read_body(SceneTable& table, const BodyKind& kind, const Scene& scene, SceneFindings& findings) {
+  BodyScene body;
+  body.name = table.key();
+  body.origin = table.origin();
+  body.mesh_keys = table.places_in("mesh");
+  body.options = kind.read_options(table, scene);
+  table.know("file");
+  if (table.has("file"))
+    body.shape = read_import(table, scene.file.parent_path(), kind.contour_rules(scene, body).ports);
+  else
+    body.shape = kind.read_shape(table, scene, body, findings);
+  kind.check_ports(table, body);
+  read_pressures(table, body);
+  if (kind.shares_masses()) read_added_masses(table, kind, body);
+  const auto strength = read_material(table, body, findings);
+  read_solver(table, body);
+  read_natural_frequencies(table, body);
+  read_fatigue(table, strength, bool(scene.run_up), body, findings);
+  if (body.fatigue && !body.fatigue->wanted_life_s) body.fatigue->wanted_life_s = scene.limits.wanted_life_s;
+  table.finish();
+  return body;
+}
+
+}  // namespace pipelines

@@ -1,0 +1,28 @@
+/// What a run adds to a body whose stresses it knows. Internal to run_scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipelines/judge/analysis/body_analysis.h"
+
+namespace pipelines {
+
+/// Seconds that natural frequencies are predicted to take on a mesh of so many unknowns, at the present pace
+/// of the machine; 0 where the body asks for none.
+double seconds_of_frequencies(const BodyScene& body, std::size_t n_dofs);
+
+/// Natural frequencies, where the body asks for them.
+/// @param seconds  that they may take; infinite: no limit
+/// @return warnings; one of them says so if they are left out
+std::vector<std::string> add_frequencies(const Scene& scene, const MeshedBody& meshed,
+                                         const kinetics::LoadHistory& loads, double seconds,
+                                         BodyAnalysis& analysis, StageClock& clock);
+
+/// Fatigue of the final stresses.
+/// @param seconds  as above
+/// @return warnings, as above
+std::vector<std::string> add_fatigue(const Scene& scene, const kinetics::LoadHistory& loads, double seconds,
+                                     int n_threads, BodyAnalysis& analysis, StageClock& clock);
+
+}  // namespace pipelines

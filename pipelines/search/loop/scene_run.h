@@ -1,0 +1,66 @@
+/// The bodies of a scene from mesh to zones: once, as the scene has them, or refined until a tolerance is
+/// met.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/loads/stage/load_stage.h"
+#include "pipelines/loads/stage/start_up_loads.h"
+#include "pipelines/scene/values/requested_accuracy.h"
+
+namespace pipelines {
+
+struct SceneRunOptions {
+  std::filesystem::path directory;  ///< every body has a folder of its own in it
+  int n_threads = 0;                ///< 0: all cores
+  bool fresh = false;               ///< reuse nothing of an earlier run
+  bool keep = true;                 ///< unit responses, for the next run
+  RequestedAccuracy accuracy{};
+  bool duty = false;    ///< unit responses also for the channels of operating blocks, whose bodies are the
+                        ///< scene's (require_blocks)
+  bool fatigue = true;  ///< judged, where the scene asks for it
+  bool second_model = true;           ///< harmonics around the axis beside the solid, where they apply
+  std::optional<std::size_t> only{};  ///< this body alone is meshed and solved...
+  std::vector<MeshedBody> others{};   ///< ...beside these meshes, in the order of Scene::bodies
+};
+
+struct SceneRun {
+  Scene scene;  ///< with the meshes, instants and harmonics that were chosen
+  LoadedScene loaded;
+  std::vector<BodyAnalysis> analyses;       ///< in the order of Scene::bodies, or of the only body
+  std::shared_ptr<const StartUp> start_up;  ///< loads of a start that the scene asks for; else null
+  /// Files of unit responses that were kept, as "body/file": hash of their key.
+  std::map<std::string, std::string> kept_under;
+
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  SceneRun();
+  SceneRun(const SceneRun&);
+  SceneRun(SceneRun&&) noexcept;
+  SceneRun& operator=(const SceneRun&);
+  SceneRun& operator=(SceneRun&&) noexcept;
+  ~SceneRun();
+
+  /// False if a tolerance was asked for and is not reached.
+  bool met() const;
+
+  /// Whether the time ended a search: another run may come further.
+  bool time_was_up() const;
+  /// Whether the results tell of a damaged file of an earlier run, which has been mended since.
+  bool tells_of_damage() const;
+};
+
+/// With effects = "auto" those are dropped that matter little (effect_choice.h). Should their bound after the
+/// solve (effect_bounds.h) exceed the limit all the same, one comes back and the bodies are run again.
+/// Leaves mesh.msh and unit_responses.h5, or unit_harmonics.h5, in the bodies' folders. Needs an
+/// fem::Environment.
+/// @throws as load_bodies and analyse_body, before any earlier
+/// result is touched where the scene is wrong
+SceneRun run_scene(const Scene& scene, const SceneRunOptions& options, StageClock& clock);
+
+}  // namespace pipelines

@@ -1,0 +1,178 @@
+#include "pipelines/study/effects/body_effect_report.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "pipelines/scene/whole/body_effects.h"
+#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/search/effect_choice/effect_choice.h"
+
+namespace pipelines {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Force = GivenForce;
+
+double across_N(const Force& force) {
+  return std::hypot(force.force_N[0], force.force_N[1]);
+}
+
+std::vector<std::string> texts_of(const Force& force) {
+  std::vector<std::string> texts;
+  if (across_N(force) > 0)
+    texts.push_back(fmt::format("{:.6g} N across, {}, on {}", across_N(force),
+                                force.turns_with_shaft ? "turning with the shaft" : "at rest", force.port));
+  if (force.force_N[2] != 0)
+    texts.push_back(fmt::format("{:.6g} N along the shaft, on {}", force.force_N[2], force.port));
+  return texts;
+}
+
+/// Forces on one port: those at rest, those that turn with the shaft, those along it.
+struct PortForces {
+  std::array<double, 2> at_rest_N{}, turning_N{};
+  double axial_N = 0;
+
+  void add(const Force& force) {
+    auto& across = force.turns_with_shaft ? turning_N : at_rest_N;
+    for (std::size_t d = 0; d < 2; ++d) across[d] += force.force_N[d];
+    axial_N += force.force_N[2];
+  }
+  double largest_across_N() const {
+    return std::hypot(at_rest_N[0], at_rest_N[1]) + std::hypot(turning_N[0], turning_N[1]);
+  }
+  double rms_across_N() const {
+    return std::hypot(std::hypot(at_rest_N[0], at_rest_N[1]), std::hypot(turning_N[0], turning_N[1]));
+  }
+};
+
+/// Sums over the forces of the effect on the port; over all that are on where `effect` is empty.
+PortForces forces_on(const Scene& scene, const BodyScene& body, const std::string& port,
+                     const std::string& effect = "") {
+  PortForces sum;
+  for (const auto& force : kind_of(body).given_forces(body))
+    if (force.port == port && scene.has_effect(force.effect) && (effect.empty() || force.effect == effect))
+      sum.add(force);
+  return sum;
+}
+
+std::vector<LoadShare> shares_on(const Scene& scene, const BodyScene& body, const std::string& port,
+                                 const std::string& effect) {
+  const auto own = forces_on(scene, body, port, effect), all = forces_on(scene, body, port);
+  std::vector<LoadShare> shares;
+  const std::string name = body.name + "/" + port;
+  if (own.largest_across_N() > 0 && all.largest_across_N() > 0) {
+    const double share = own.largest_across_N() / all.largest_across_N();
+    shares.push_back({name + ".force", share, own.rms_across_N() / all.rms_across_N(), share});
+  }
+  if (own.axial_N != 0 && all.axial_N != 0) {
+    const double share = std::abs(own.axial_N / all.axial_N);
+    shares.push_back({name + ".fz", share, share, share});
+  }
+  return shares;
+}
+
+void add_forces(const Scene& scene, const BodyScene& body, BodyEffect& effect) {
+  std::vector<std::string> ports;
+  for (const auto& force : kind_of(body).given_forces(body)) {
+    if (force.effect != effect.effect.name) continue;
+    for (const auto& text : texts_of(force)) effect.forces.push_back(text);
+    if (std::find(ports.begin(), ports.end(), force.port) == ports.end()) ports.push_back(force.port);
+  }
+  for (const auto& port : ports)
+    for (const auto& share : shares_on(scene, body, port, effect.effect.name)) effect.shares.push_back(share);
+}
+
+std::string where_to_look(const Scene& scene, const std::string& body) {
+  return "its size comes from the mesh of the " + body + ": `millstress check " +
+         scene.file.filename().string() + " -v` shows it";
+}
+
+}  // namespace
+
+std::vector<BodyEffect> effects_of_bodies(const Scene& scene) {
+  std::vector<BodyEffect> effects;
+  for (const auto& body : scene.bodies)
+    for (const auto& info : body_effect_table(body)) {
+      if (!scene.has_effect(info.name)) continue;
+      BodyEffect effect{body.name, info, {}, {}};
+      add_forces(scene, body, effect);
+      effects.push_back(std::move(effect));
+    }
+  return effects;
+}
+
+void print_effects_of_bodies(std::ostream& out, const Scene& scene, bool all) {
+  const auto effects = effects_of_bodies(scene);
+  if (!all && !effects.empty()) out << "\n  effects of the bodies themselves\n";
+  for (const auto& effect : effects) {
+    if (all)
+      out << fmt::format("\n  {} on the {}: {} ({})\n", effect.effect.name, effect.body,
+                         effect.effect.description, effect.effect.source);
+    else
+      out << fmt::format("    {} on the {}", effect.effect.name, effect.body);
+    const char* begin = all ? "    " : ": ";
+    const char* end = all ? "\n" : "";
+    if (effect.forces.empty()) out << begin << where_to_look(scene, effect.body) << end;
+    for (const auto& force : effect.forces) out << begin << force << end;
+    if (!all) {
+      for (const auto& share : effect.shares)
+        out << fmt::format("; {} of {}", percent(share.largest), share.load);
+      out << '\n';
+      continue;
+    }
+    if (effect.shares.empty()) continue;
+    out << fmt::format("    {:<28}{:>16}{:>16}{:>16}\n", "load", "largest share", "RMS share",
+                       "change if off");
+    for (const auto& share : effect.shares)
+      out << fmt::format("    {:<28}{:>16}{:>16}{:>16}\n", share.load, percent(share.largest),
+                         percent(share.rms), percent(share.if_off));
+  }
+}
+
+std::string with_effects_of_bodies(const std::string& json, const Scene& scene) {
+  const auto effects = effects_of_bodies(scene);
+  if (effects.empty()) return json;
+  Json whole = Json::parse(json);
+  for (const auto& effect : effects) {
+    Json entry{
+        {"body", effect.body}, {"description", effect.effect.description}, {"source", effect.effect.source}};
+    if (effect.forces.empty()) entry["size"] = where_to_look(scene, effect.body);
+    for (const auto& force : effect.forces) entry["forces"].push_back(force);
+    for (const auto& share : effect.shares)
+      entry["loads"][share.load] = {
+          {"largest_share", share.largest}, {"rms_share", share.rms}, {"change_if_off", share.if_off}};
+    whole["body_effects"][effect.effect.name] = std::move(entry);
+  }
+  return whole.dump(2) + "\n";
+}
+
+std::vector<EffectSize> effect_sizes(const BodyLoads& loads, const std::vector<RegionMass>& regions) {
+  const auto n = loads.history.values.cols();
+  std::vector<EffectSize> sizes;
+  if (n == 0) return sizes;
+  for (std::size_t e = 0; e < loads.history.effects.size(); ++e) {
+    Eigen::ArrayXd force_N = Eigen::ArrayXd::Zero(n), moment_Nm = force_N;
+    for (std::size_t k = 0; k < loads.unit_loads.size(); ++k) {
+      if (std::holds_alternative<fem::SeatPressure>(loads.unit_loads[k].shape)) continue;
+      const UnitSize size = size_of_unit(loads.unit_loads[k], regions);
+      const Eigen::ArrayXd values = loads.history.by_effect[e].row(Eigen::Index(k)).abs().transpose();
+      force_N += size.force * values;
+      moment_Nm += size.moment * values;
+    }
+    if (force_N.maxCoeff() > 0 || moment_Nm.maxCoeff() > 0)
+      sizes.push_back({loads.history.effects[e], force_N.maxCoeff(), moment_Nm.maxCoeff()});
+  }
+  return sizes;
+}
+
+void print_effect_sizes(std::ostream& out, const std::vector<EffectSize>& sizes) {
+  out << fmt::format("  {:<30}{:>16}{:>18}\n", "effects on it, at most", "sum of forces", "sum of moments");
+  for (const auto& size : sizes)
+    out << fmt::format("    {:<28}{:>14.4g} N{:>14.4g} N m\n", size.effect, size.force_N, size.moment_Nm);
+}
+
+}  // namespace pipelines

@@ -1,0 +1,62 @@
+/// Rows of a body's results, for the tables of fields.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "pipelines/base/fields/field.h"
+#include "pipelines/base/fields/field_outputs.h"
+#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/texts/moment.h"
+
+namespace pipelines {
+
+/// A body's result and the cycle that it belongs to.
+struct BodyResult {
+  const Scene& scene;  ///< of the run, with the instants of the loads
+  const kinetics::LoadHistory& loads;
+  const BodyAnalysis& analysis;
+};
+
+/// Of an instant that may lie between two.
+inline summary::Json moment_json(const BodyResult& body, double instant) {
+  const auto moment = moment_between(body.scene, body.loads, instant);
+  return summary::object({{"turn", moment.turn}, {"drive_angle_rad", moment.angle_rad}});
+}
+
+/// One item of a body's result: a zone, a place, a weld toe ...
+template <typename Item>
+struct RowOf {
+  const BodyResult& body;
+  const Item& item;
+  std::size_t index;  ///< from 0
+};
+
+/// As summary.json has them.
+template <typename Item>
+summary::Json summary_rows(const FieldTable<RowOf<Item>>& fields, const BodyResult& body,
+                           const std::vector<Item>& items) {
+  auto rows = summary::Json::array();
+  for (const auto& item : items)
+    rows.push_back(summary_row(fields, {body, item, std::size_t(&item - items.data())}));
+  return rows;
+}
+
+/// With all fields, for CSV.
+template <typename Item>
+summary::Json whole_rows(const FieldTable<RowOf<Item>>& fields, const BodyResult& body,
+                         const std::vector<Item>& items) {
+  auto rows = summary::Json::array();
+  for (const auto& item : items)
+    rows.push_back(whole_row(fields, {body, item, std::size_t(&item - items.data())}));
+  return rows;
+}
+
+/// As a CSV file.
+template <typename Item>
+void write_rows(const std::filesystem::path& file, const FieldTable<RowOf<Item>>& fields,
+                const BodyResult& body, const std::vector<Item>& items) {
+  write_csv(file, csv_columns(fields_of(fields), whole_rows(fields, body, items)));
+}
+
+}  // namespace pipelines

@@ -1,0 +1,78 @@
+#include "pipelines/write/files/results.h"
+
+#include <future>
+
+#include "meshes/gmsh/msh_writer.h"
+#include "pipelines/base/common/several_ranks.h"
+#include "pipelines/base/files/atomic_file.h"
+#include "pipelines/loads/channels/load_files.h"
+#include "pipelines/write/fields/zone_fields.h"
+#include "pipelines/write/files/envelope_files.h"
+#include "pipelines/write/parts/fatigue_report.h"
+#include "pipelines/write/parts/shaft_torsion_report.h"
+
+namespace pipelines {
+namespace {
+
+using std::filesystem::path;
+
+/// Every zone with its parts below it, at the levels that they are above.
+std::vector<ZonePart> zone_tree(const Zones& zones) {
+  std::vector<ZonePart> rows;
+  for (const auto& zone : zones.zones) {
+    ZonePart whole;
+    whole.number = std::to_string(&zone - zones.zones.data() + 1);
+    whole.level_Pa = zones.level_Pa;
+    whole.peak_Pa = zone.peak_Pa;
+    whole.peak_m = zone.peak_m;
+    whole.instant = zone.instant;
+    whole.n_nodes = zone.n_nodes;
+    whole.feature = zone.feature;
+    whole.place = zone.place;
+    rows.push_back(std::move(whole));
+    rows.insert(rows.end(), zone.parts.begin(), zone.parts.end());
+  }
+  return rows;
+}
+
+}  // namespace
+
+void write_load_results(const path& directory, const kinetics::LoadHistory& loads, const BodyChannels& bodies,
+                        int n_threads) {
+  const auto policy = n_threads > 1 ? std::launch::async : std::launch::deferred;
+  auto csv =
+      std::async(policy, [&] { write_loads_csv(directory / "loads.csv", loads, bodies, n_threads - 1); });
+  write_loads_h5(directory / "loads.h5", loads, bodies);
+  csv.get();
+}
+
+void write_mesh(const path& file, const meshes::BodyMesh& mesh) {
+  AtomicFile target(file);
+  meshes::write_msh(mesh, target.temporary());
+  target.commit("$EndElements\n");  // gmsh does not tell that the disk was full
+}
+
+void write_body_results(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
+                        const BodyAnalysis& analysis, int n_pieces, int n_threads) {
+  if (is_first_rank()) {
+    if (analysis.method == Method::solid) write_mesh(directory / "mesh.msh", analysis.mesh);
+    write_envelope_files(directory, scene, loads, analysis, n_pieces);
+  }
+  write_cycle_files(directory, scene, loads, analysis, n_threads);
+  if (!is_first_rank()) return;
+  const BodyResult body{scene, loads, analysis};
+  write_rows(directory / "zones.csv", zone_fields(), body, analysis.zones.zones);
+  write_rows(directory / "zone_tree.csv", zone_part_fields(), body, zone_tree(analysis.zones));
+  if (!analysis.hot_spots.empty())
+    write_rows(directory / "hot_spots.csv", hot_spot_fields(), body, analysis.hot_spots);
+  if (analysis.fatigue && !analysis.fatigue->welds.empty())
+    write_weld_fatigue(directory / "weld_fatigue.csv", body);
+  if (analysis.fatigue) write_fatigue(directory / "fatigue.csv", body);
+  if (analysis.start_up) write_start_up(directory / "start_up.csv", analysis);
+  if (!analysis.diagrams) return;
+  write_element_torsion(directory / "element_torques.csv", loads, analysis);
+  write_diagrams(directory / "diagrams.csv", analysis);
+  write_torsion(directory, loads, analysis);
+}
+
+}  // namespace pipelines

@@ -1,0 +1,307 @@
+#include "pipelines/write/report/html_report.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "pipelines/base/common/constants.h"
+#include "pipelines/base/common/errors.h"
+#include "pipelines/base/common/statistics.h"
+#include "pipelines/base/fields/shown_unit.h"
+#include "pipelines/base/files/atomic_file.h"
+#include "pipelines/base/files/json_file.h"
+#include "pipelines/base/files/whole_file.h"
+#include "pipelines/write/exports/html_page.h"
+#include "pipelines/write/fields/bearing_fields.h"
+#include "pipelines/write/fields/zone_fields.h"
+#include "pipelines/write/parts/shaft_torsion_report.h"
+#include "pipelines/write/report/fatigue_html.h"
+#include "pipelines/write/report/html_values.h"
+#include "pipelines/write/report/torsion_html.h"
+
+namespace pipelines {
+namespace {
+
+using html::Json, html::MPa, html::number, html::Rows;
+
+std::string file_text(const std::filesystem::path& file) {
+  return whole_file(file).value_or("");
+}
+
+std::string with_spaces(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+void add_budget(HtmlPage& page, const std::string& of, const Json& error, double value_Pa) {
+  Rows rows;
+  for (const auto& [source, method] : error.at("methods").items())
+    rows.push_back({with_spaces(source), MPa(error.at(source)),
+                    number(error.at(source), value_Pa > 0 ? 100 / value_Pa : 0, "{:.2f} %"),
+                    method.get<std::string>()});
+  rows.push_back({"all together", MPa(error.at("total")),
+                  number(error.at("total"), value_Pa > 0 ? 100 / value_Pa : 0, "{:.2f} %"), "sum"});
+  page.heading(3, "How well the " + of + " is known");
+  page.table({"source of error", "MPa", "share", "how it was estimated"}, rows);
+}
+
+void add_effects(HtmlPage& page, const Json& peak) {
+  if (!peak.contains("effect_share")) return;
+  Rows rows;
+  for (const auto& [effect, share] : peak.at("effect_share").items())
+    rows.push_back({effect, number(share, 100, "{:.2f} %")});
+  page.heading(3, "What the peak is made of");
+  page.table({"effect", "share"}, rows);
+  if (!peak.contains("effect_group_share")) return;
+  Rows sums;
+  for (const auto& [group, share] : peak.at("effect_group_share").items())
+    sums.push_back({group, number(share, 100, "{:.2f} %")});
+  page.table({"in sum", "share"}, sums);
+}
+
+void add_table(HtmlPage& page, const ShownRows& shown) {
+  page.table(shown.titles, shown.cells);
+}
+
+void add_zones(HtmlPage& page, const Json& body) {
+  const auto& zones = body.at("zones");
+  const auto fields = fields_of(zone_fields());
+  page.heading(3, "Zones above " + MPa(body.at("zone_level").at("value")) + " MPa");
+  add_table(page, shown_rows(fields, zones, zones.size()));
+  add_table(page, shown_details(fields, zones, zones.size()));
+  auto parts = Json::array();
+  for (const auto& zone : zones)
+    for (const auto& part : zone.value("parts", Json::array())) parts.push_back(part);
+  add_table(page, shown_rows(fields_of(zone_part_fields()), parts, parts.size()));
+  if (!body.contains("hot_spots")) return;
+  constexpr std::size_t most = 12;
+  page.heading(3, "Hot-spot stress at weld toes");
+  add_table(page, shown_rows(fields_of(hot_spot_fields()), body.at("hot_spots"), most));
+}
+
+void add_search(HtmlPage& page, const Json& body) {
+  if (!body.contains("search")) return;
+  const auto& search = body.at("search");
+  Rows rows;
+  for (const auto& step : search.at("steps"))
+    rows.push_back({fmt::format("{}", rows.size() + 1), number(step.at("dofs"), 1, "{:.0f}"),
+                    MPa(step.at("value_Pa")), MPa(step.at("error").at("total")),
+                    with_spaces(step.at("dominated_by").get<std::string>()),
+                    step.at("mesh").get<std::string>()});
+  page.heading(3, search.at("tolerance") == 0
+                      ? "The way within the time limit"
+                      : "The way to the tolerance of " + number(search.at("tolerance"), 100, "{:g} %"));
+  page.table({"step", "unknowns", "MPa", "error MPa", "dominated by", "mesh"}, rows);
+  page.paragraph("It ended because " + search.at("ended").get<std::string>() + ".");
+}
+
+void add_seats(HtmlPage& page, const Json& body) {
+  if (!body.contains("seats")) return;
+  const auto shown = shown_seats(body.at("seats"));
+  page.heading(3, "Deflection and slope");
+  page.table(shown.titles, shown.cells);
+}
+
+/// The model, and of a solid how it was solved.
+std::string solved_by(const Json& body) {
+  const auto& solver = body.at("solver");
+  const std::string method = body.value("method", "solid");
+  if (method == "beam") return "by the beam model: no section diagrams, no torsion, zones without volume";
+  if (method != "solid") return "by the " + method + " model";
+  return std::string("solved by ") +
+         (solver.at("used") == "iterative" ? "conjugate gradients" : "factorisation") + " (" +
+         solver.at("reason").get<std::string>() + ")";
+}
+
+/// First of all: what the machine is judged by. Results of earlier versions have none.
+void add_verdict(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("verdict")) return;
+  const auto& verdict = summary.at("verdict");
+  page.verdict(verdict.at("judgement").get<std::string>(), verdict.at("headline").get<std::string>());
+  Rows rows;
+  for (const auto& [name, part] : verdict.at("parts").items())
+    for (const auto& finding : part.at("findings")) {
+      const auto text = [&](const char* key) { return finding.at(key).get<std::string>(); };
+      const auto place = text("place").empty() ? "" : ", at " + text("place");
+      const auto remedy = text("remedy").empty() ? "" : "; to do: " + text("remedy");
+      rows.push_back({name, text("judgement"), text("criterion"), text("figure") + place + remedy});
+    }
+  std::string left_out;
+  for (const auto& what : verdict.value("left_out", Json::array()))
+    left_out += (left_out.empty() ? "" : ", ") + what.get<std::string>();
+  if (!left_out.empty()) page.paragraph("Not weighed, by the scene: " + left_out + ".");
+  page.table({"", "verdict", "criterion", "figure and limit, at the weakest place"}, rows);
+}
+
+void add_body(HtmlPage& page, const std::filesystem::path& directory, const std::string& name,
+              const Json& body) {
+  page.heading(2, "The " + name);
+  if (const auto trouble = body.at("governing").value("not_known_well", ""); !trouble.empty())
+    page.warning("Not known well: " + trouble);
+  if (const auto strength = body.value("fatigue_strength", ""); !strength.empty()) page.paragraph(strength);
+  if (const auto rise = body.at("governing").value("rises_towards_edge", ""); !rise.empty())
+    page.warning("Sharp edge: " + rise);
+  page.paragraph(fmt::format("{} unknowns, {} kg of {} with a yield strength of {} MPa, {}.",
+                             number(body.at("dofs"), 1, "{:.0f}"), number(body.at("mass").at("value")),
+                             body.at("material").get<std::string>(),
+                             MPa(body.at("yield_strength").at("value")), solved_by(body)));
+  add_table(page, headline_rows(body));
+  page.picture(directory / name / "envelope.png", "Largest von Mises stress over the cycle, " + name);
+  add_zones(page, body);
+  const auto& governing = body.at("governing");
+  const auto& peak = body.at("peak_von_mises");
+  page.folded("How well the stress is known", [&] {
+    add_budget(page, governing.at("name").get<std::string>(), governing.at("error"),
+               governing.at("value").get<double>());
+  });
+  page.folded("How the mesh was found", [&] { add_search(page, body); });
+  page.folded("Shares of all effects", [&] { add_effects(page, peak); });
+  add_shaft_torsion(page, body);
+  add_seats(page, body);
+  add_fatigue(page, body);
+}
+
+/// What rounding leaves of a mean that is none is 0.
+std::string mean_of(const Json& load, double one) {
+  const auto size = [&](const char* key) {
+    return load.at(key).is_number() ? std::abs(load.at(key).get<double>()) : 0.0;
+  };
+  if (!load.at("mean").is_number()) return "-";
+  return number(without_rounding(load.at("mean").get<double>(), std::max(size("max"), size("min"))), 1 / one);
+}
+
+void add_loads(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("loads")) return;  // all are zero
+  Rows rows;
+  for (const auto& [name, load] : summary.at("loads").items()) {
+    const auto shown = shown_unit(load.at("unit").get<std::string>());
+    rows.push_back({name, number(load.at("max"), 1 / shown.one), number(load.at("min"), 1 / shown.one),
+                    mean_of(load, shown.one), number(load.at("rms"), 1 / shown.one), shown.unit});
+  }
+  page.heading(2, "Loads over the cycle");
+  page.table({"load", "max", "min", "mean", "rms", "unit"}, rows);
+}
+
+void add_bearings(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("bearings")) return;
+  const auto& bearings = summary.at("bearings");
+  page.heading(2, "Bearings");
+  for (const auto& shown : {shown_bearings(bearings), shown_bearing_answers(bearings)})
+    page.table(shown.titles, shown.cells);
+}
+
+void add_natural_frequencies(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("torsion")) return;
+  Rows rows;
+  for (const auto& frequency : summary.at("torsion").at("natural_frequencies"))
+    rows.push_back({fmt::format("{}", rows.size() + 1), number(frequency.at("value")),
+                    number(frequency.at("value"), 60 / (2 * pi))});
+  page.heading(2, "Torsional natural frequencies");
+  page.table({"mode", "rad/s", "per minute"}, rows);
+}
+
+void add_accuracy(HtmlPage& page, const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> tables;
+  if (std::filesystem::is_directory(directory))
+    for (const auto& entry : std::filesystem::directory_iterator(directory))
+      if (entry.path().extension() == ".txt") tables.push_back(entry.path());
+  if (tables.empty()) return;
+  std::sort(tables.begin(), tables.end());
+  page.heading(2, "What accuracy costs in time");
+  for (const auto& table : tables) {
+    auto chart = table;
+    page.picture(chart.replace_extension(".png"), "Error against seconds, " + table.stem().string());
+    page.preformatted(file_text(table));
+  }
+}
+
+void add_timing(HtmlPage& page, const Json& summary) {
+  Rows rows;
+  for (const auto& [stage, cost] : summary.at("timing").items())
+    rows.push_back({stage, number(cost.at("seconds"), 1, "{:.2f}"),
+                    number(cost.at("peak_memory_gigabytes"), 1, "{:.2f}")});
+  page.heading(2, "Time and memory");
+  page.table({"stage", "seconds", "largest memory so far, GB"}, rows);
+}
+
+std::string window_of(const Json& input) {
+  if (!input.contains("run_up"))
+    return fmt::format("{} turn{} of {} instants", number(input.at("turns"), 1, "{:.0f}"),
+                       input.at("turns") == 1 ? "" : "s", number(input.at("instants_per_turn"), 1, "{:.0f}"));
+  const auto& run = input.at("run_up");
+  return fmt::format("a run-up of {} s, {} turns, {} instants", number(run.at("duration").at("value")),
+                     number(run.at("turns").at("value"), 1, "{:.3g}"),
+                     number(run.at("instants"), 1, "{:.0f}"));
+}
+
+std::string page_of(const Json& summary, const std::filesystem::path& directory,
+                    const std::filesystem::path& accuracy) {
+  const auto& input = summary.at("input");
+  HtmlPage page(input.at("title").get<std::string>());
+  page.heading(1, input.at("title").get<std::string>());
+  page.paragraph(fmt::format("{}, {}; scene {} ({}); millstress {}",
+                             with_spaces(input.at("machine").get<std::string>()), window_of(input),
+                             input.at("scene").get<std::string>(), input.at("hash").get<std::string>(),
+                             summary.at("program").at("version").get<std::string>()));
+  if (input.contains("settings"))
+    for (const auto& setting : input.at("settings"))
+      page.paragraph("Set on the command line: " + setting.get<std::string>());
+  add_verdict(page, summary);
+  page.folded(fmt::format("Warnings ({})", summary.at("warnings").size()), [&] {
+    for (const auto& warning : summary.at("warnings")) page.warning(warning.get<std::string>());
+  });
+  if (summary.contains("bodies"))
+    for (const auto& [name, body] : summary.at("bodies").items()) add_body(page, directory, name, body);
+  add_loads(page, summary);
+  add_bearings(page, summary);
+  add_fatigue_ranking(page, summary);
+  add_duty(page, summary);
+  add_natural_frequencies(page, summary);
+  add_resonance_margins(page, summary);
+  add_accuracy(page, accuracy);
+  if (summary.contains("timing")) page.folded("Time and memory", [&] { add_timing(page, summary); });
+  return page.text();
+}
+
+}  // namespace
+
+std::string html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy) {
+  const auto file = directory / "summary.json";
+  if (std::error_code none; !std::filesystem::exists(file, none))
+    throw OptionError(file.string() +
+                      ": there is no such file; give the result directory of a run "
+                      "(millstress run SCENE -o DIR leaves one)");
+  const auto refuse = [&](const std::string& why) {
+    throw OptionError(file.string() + ": is no summary of a run (" + why +
+                      "); run the scene again with this version");
+  };
+  const auto summary = read_json_file(file);
+  if (const auto size = size_of_file(file); size > most_bytes_of_a_result)
+    refuse("it has " + size_text(size) + ", more than any of them");
+  if (summary.is_discarded()) refuse("it is no whole JSON text");
+  std::string page;
+  try {
+    page = page_of(summary, directory, accuracy);
+  } catch (const nlohmann::json::exception& error) {
+    refuse(error.what());
+  }
+  return page;
+}
+
+bool is_html_report(const std::filesystem::path& file) {
+  const std::string text = file_text(file), program = "; millstress ";
+  const std::string begin = HtmlPage("").text().substr(0, 60), end = "</body>\n</html>\n";
+  return text.compare(0, begin.size(), begin) == 0 && text.size() > end.size() &&
+         text.compare(text.size() - end.size(), end.size(), end) == 0 &&
+         text.find(program) != std::string::npos;
+}
+
+void write_html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy) {
+  write_text_file(directory / "report.html", html_report(directory, accuracy));
+}
+
+}  // namespace pipelines

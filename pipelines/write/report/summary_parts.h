@@ -1,0 +1,12 @@
+/// Parts of summary.json. Internal to the summary.
+#pragma once
+
+#include "pipelines/base/fields/json_values.h"
+#include "pipelines/judge/texts/run_report.h"
+
+namespace pipelines::summary {
+
+/// What bodies.<body> has.
+Json body_json(const RunReport& report, const BodyAnalysis& analysis);
+
+}  // namespace pipelines::summary
