@@ -23,8 +23,12 @@ std::string text_of_manifest(const ManifestJson& json) {
   return json.dump(2, ' ', false, ManifestJson::error_handler_t::replace) + "\n";
 }
 
-std::string list_checksum(const ManifestJson& files) {
-  return text_hash(files.dump(-1, ' ', false, ManifestJson::error_handler_t::replace));
+/// Of all but itself. Manifests that do not say of what they are, as those of earlier versions, have that of
+/// their list alone.
+std::string checksum_of(ManifestJson json) {
+  json.erase("checksum");
+  const auto& covered = json.contains("of") ? json : json.at("files");
+  return text_hash(covered.dump(-1, ' ', false, ManifestJson::error_handler_t::replace));
 }
 
 /// A damaged or malicious list must not lead out of the directory, nor to what this program never writes.
@@ -52,7 +56,7 @@ std::optional<FileList> read_manifest(const OpenDirectory& directory) {
   if (whole_file(file) != text_of_manifest(json))
     return std::nullopt;  // spaces that are none any more mean nothing to JSON
   const auto& files = json.at("files");
-  if (!files.is_object() || json.at("checksum") != list_checksum(files)) return std::nullopt;
+  if (!files.is_object() || json.at("checksum") != checksum_of(json)) return std::nullopt;
   FileList list;
   for (const auto& [name, entry] : files.items()) {
     if (!stays_inside(name) || !entry.is_object() || !entry.contains("bytes") ||
@@ -99,7 +103,7 @@ std::string manifest_text(const FileList& list, const std::optional<ResultsOf>& 
     if (of->sweep) json["of"]["sweep"] = *of->sweep;
   }
   json["files"] = files;
-  json["checksum"] = list_checksum(files);
+  json["checksum"] = checksum_of(json);
   return text_of_manifest(json);
 }
 
