@@ -80,8 +80,9 @@ Json energy_error_json(const BodyAnalysis& analysis) {
 Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
   const auto& quality = analysis.mesh.quality;
   const BodyResult body{report.scene, report.loads, analysis};
-  Json json = summary_row(headline_fields(), body);
+  Json json;
   if (analysis.fatigue) json["fatigue_strength"] = strength_text(report.scene, analysis);
+  json.update(summary_row(headline_fields(), body));
   json["method"] = to_string(analysis.method);
   json["dofs"] = analysis.responses.n_dofs;
   json["cells"] = quality.n_cells;

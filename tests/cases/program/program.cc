@@ -208,6 +208,15 @@ nlohmann::json summary(const fs::path& results) {
   return nlohmann::json::parse(results_test::bytes(results / "summary.json"));
 }
 
+/// A cell up to its comma, or a text in quotes with the commas in it.
+static std::string next_cell(std::istringstream& row) {
+  std::string cell, more;
+  std::getline(row, cell, ',');
+  while (std::count(cell.begin(), cell.end(), '"') % 2 == 1 && std::getline(row, more, ','))
+    cell += "," + more;
+  return cell;
+}
+
 std::map<std::string, std::vector<double>> csv(const fs::path& file) {
   std::ifstream in(file);
   std::string line, cell;
@@ -218,10 +227,7 @@ std::map<std::string, std::vector<double>> csv(const fs::path& file) {
   std::map<std::string, std::vector<double>> columns;
   while (std::getline(in, line)) {
     std::istringstream row(line);
-    for (const auto& name : names) {
-      std::getline(row, cell, ',');
-      columns[name].push_back(std::strtod(cell.c_str(), nullptr));
-    }
+    for (const auto& name : names) columns[name].push_back(std::strtod(next_cell(row).c_str(), nullptr));
   }
   return columns;
 }

@@ -76,7 +76,8 @@ TEST(SceneKeys, EveryOneIsDocumented) {
 // A key that the tables have and no reader names is one that is refused.
 TEST(SceneKeys, NoneIsInvented) {
   std::string readers;
-  for (const char* room : {"scene_bodies", "scene_reader", "tables", "machines", "bodies", "variations"})
+  for (const char* room :
+       {"scene/bodies", "scene/reader", "scene/tables", "scene/machines", "loads/bodies", "study/variations"})
     for (const auto& entry : fs::directory_iterator(fs::path(SOURCE_DIR) / "pipelines" / room))
       if (entry.path().extension() == ".cc") readers += text_of(entry.path());
   for (const auto& name : documented_names(true))
