@@ -150,7 +150,8 @@ TEST_F(OthersFiles, ADirectoryThatIsSwappedIsNotWrittenThrough) {
 TEST_F(OthersFiles, RunsInTwoProcessNamespacesLeaveEachOtherAlone) {
   const std::string apart = "unshare --pid --fork --mount-proc";
   if (std::system((apart + " true > /dev/null 2>&1").c_str()) != 0)
-    GTEST_SKIP() << "new process namespaces are not permitted here";
+    GTEST_SKIP() << "the system permits no process namespaces of one's own, as many containers: there are no "
+                    "such two runs";
   prepare("solid");
   std::vector<cases::Start> starts;
   for (const char* name : {"1", "2", "3"}) {

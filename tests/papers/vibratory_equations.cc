@@ -31,7 +31,7 @@ double largest_of(const Numbers& values) {
 }
 
 /// A series at every instant against a formula of phi and delta, which follow from the time: of angles the
-/// file has twelve digits, too few for these after 20 turns.
+/// file has fifteen digits, too few for these after 20 turns.
 template <typename Formula>
 void expect_series(const Columns& columns, const std::string& name, Formula formula) {
   ASSERT_TRUE(columns.count(name)) << name;
@@ -202,13 +202,12 @@ TEST(VibratoryEquations, ConsistentMotionMakesTheForces) {
       }
     }
   const double scale = largest_of(q.at("charge_on_wall.fx"));
-  constexpr double twelve_digits_m = 1e-12;  // of lengths below 1 m, and of chi times r
   for (std::size_t i = 0; i < q.at("time").size(); ++i) {
     EXPECT_NEAR(q.at("charge_on_wall.fx")[i], -m * q.at("O.ax")[i], 1e-11 * scale);
     EXPECT_NEAR(q.at("charge_on_wall.fy")[i], -m * (q.at("O.ay")[i] + g), 1e-11 * scale);
     // DE and OD without errata 3 and 4: the charge's centre from the moving pivot at rest.
-    EXPECT_NEAR(q.at("charge_at.x")[i], JE + r * std::cos(q.at("chi")[i]), twelve_digits_m);
-    EXPECT_NEAR(q.at("charge_at.y")[i], 0.04 - r * std::sin(q.at("chi")[i]), twelve_digits_m);
+    EXPECT_NEAR(q.at("charge_at.x")[i], JE + r * std::cos(q.at("chi")[i]), 1e-14);
+    EXPECT_NEAR(q.at("charge_at.y")[i], 0.04 - r * std::sin(q.at("chi")[i]), 1e-14);
   }
   // Without pitch and lag the motion is that of (1) and (4).
   const auto held =
@@ -220,6 +219,6 @@ TEST(VibratoryEquations, ConsistentMotionMakesTheForces) {
     const auto &found = held.at(name), &wanted = q_published.at(name);
     const double of_found = largest_of(found);
     for (std::size_t i = 0; i < held.at("time").size(); ++i)
-      EXPECT_NEAR(found[i], wanted[i], 1e-11 * of_found) << name;
+      EXPECT_NEAR(found[i], wanted[i], 1e-12 * of_found) << name;
   }
 }

@@ -35,13 +35,13 @@ const Json& number_in(const Json& value) {
 
 std::string number_cell(const Json& value, double one) {
   const auto& number = number_in(value);
-  return number.is_number() ? fmt::format("{:.12g}", number.get<double>() / one) : std::string();
+  return number.is_number() ? fmt::format("{:.15g}", number.get<double>() / one) : std::string();
 }
 
 /// As a drive angle over all turns, in degrees.
 std::string moment_cell(const Json& value) {
   if (!value.is_object()) return "";
-  return fmt::format("{:.12g}", 360 * (value.at("turn").get<double>() - 1) +
+  return fmt::format("{:.15g}", 360 * (value.at("turn").get<double>() - 1) +
                                     value.at("drive_angle_rad").get<double>() * 180 / pi);
 }
 

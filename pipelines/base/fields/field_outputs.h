@@ -10,7 +10,7 @@
 
 namespace pipelines {
 
-/// Columns of CSV in the units that people read, with twelve digits; cells without a value are empty.
+/// Columns of CSV in the units that people read, with fifteen digits; cells without a value are empty.
 /// Positions are three columns, tensors six, ranges two (`_least`, `_most`), shares one of each name that a
 /// row has.
 /// @param rows  each with all fields (whole_row)

@@ -6,22 +6,23 @@
 #include <cstdlib>
 #include <map>
 
-#include "pipelines/base/common/constants.h"
+#include "pipelines/base/fields/quantity.h"
 
 namespace pipelines {
+
 double ShownUnit::value(double si) const {
   if (one == 1 || !std::isfinite(si)) return si;
-  return std::strtod(fmt::format("{:.12g}", si / one).c_str(), nullptr);
+  return std::strtod(fmt::format("{:.15g}", si / one).c_str(), nullptr);
 }
 
 ShownUnit shown_unit(const std::string& si_unit) {
-  static const std::map<std::string, ShownUnit> others{{"Pa", {"MPa", 1e6}},
-                                                       {"m", {"mm", 1e-3}},
-                                                       {"m3", {"mm3", 1e-9}},
-                                                       {"rad", {"deg", pi / 180}},
-                                                       {"1/m", {"1/mm", 1e3}}};
+  static const std::map<std::string, Quantity> others{{"Pa", quantities::stress},
+                                                      {"m", quantities::length},
+                                                      {"m3", quantities::volume},
+                                                      {"rad", quantities::angle},
+                                                      {"1/m", quantities::related_gradient}};
   const auto other = others.find(si_unit);
-  return other == others.end() ? ShownUnit{si_unit, 1} : other->second;
+  return other == others.end() ? ShownUnit{si_unit, 1} : ShownUnit{other->second.unit, other->second.one};
 }
 
 CsvColumn in_shown_unit(CsvColumn si) {

@@ -11,7 +11,7 @@ namespace pipelines {
 struct ShownUnit {
   std::string unit;
   double one = 1;  ///< in the SI unit
-  /// With twelve digits where the unit is another.
+  /// With fifteen digits where the unit is another.
   double value(double si) const;
 };
 

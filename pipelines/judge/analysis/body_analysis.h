@@ -67,9 +67,9 @@ struct BodyAnalysis {
   fem::GeometryError geometry_error;
   BodyLoads loads;
   fem::UnitResponses responses;
-  bool responses_reused = false;        ///< taken from an earlier run
-  std::vector<std::string> warnings;    ///< of damaged files that an earlier run has left
-  double solve_s = 0, superpose_s = 0;  ///< wall time; 0: taken from before
+  bool responses_reused = false;      ///< taken from an earlier run
+  std::vector<std::string> warnings;  ///< of damaged files that an earlier run has left
+  double solve_s = 0;                 ///< wall time; 0: taken from before
   Closure closure;
   NodePlaces places;
   Envelope envelope;

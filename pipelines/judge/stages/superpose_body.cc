@@ -1,7 +1,6 @@
 #include "pipelines/judge/stages/superpose_body.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "pipelines/judge/analysis/crest_elsewhere.h"
@@ -83,14 +82,6 @@ Zones zones_of(const BodyAnalysis& analysis, const ZoneRule& rule) {
                     zone_level_Pa(rule, analysis.peak.value_Pa, yield_Pa), yield_Pa);
 }
 
-/// Wall time.
-template <typename Work>
-double seconds_taken_by(const Work& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 }  // namespace
 
 double zone_level_Pa(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
@@ -106,7 +97,6 @@ BodyAnalysis superpose_again(const BodyScene& body, const MeshedBody& meshed, Bo
   after.responses_reused = before.responses_reused;
   after.warnings = std::move(before.warnings);
   after.solve_s = before.solve_s;
-  if (after.superpose_s == 0) after.superpose_s = before.superpose_s;
   return after;
 }
 
@@ -125,14 +115,11 @@ BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, Bod
   analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
   require_closure(body.name, analysis.closure);
 
-  const bool is_known = known.envelope.has_value();
   clock.run("superpose", [&] {
-    if (is_known)
+    if (known.envelope)
       analysis.envelope = std::move(*known.envelope);
     else
-      analysis.superpose_s = seconds_taken_by([&] {
-        analysis.envelope = envelope(analysis.loads.history, analysis.responses, threads(n_threads));
-      });
+      analysis.envelope = envelope(analysis.loads.history, analysis.responses, threads(n_threads));
   });
   require_finite(body.name, analysis.envelope);
   clock.run("zones", [&] {
@@ -149,8 +136,7 @@ BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, Bod
     });
   clock.run("zones", [&] { estimate_error_of_largest_toe(analysis); });
   clock.run("superpose", [&] {
-    const double crest_s = seconds_taken_by([&] { add_crest_elsewhere(analysis, threads(n_threads)); });
-    if (!is_known) analysis.superpose_s += crest_s;
+    add_crest_elsewhere(analysis, threads(n_threads));
     add_load_patch_error(analysis);
     add_load_edge_error(analysis);
   });

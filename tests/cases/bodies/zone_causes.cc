@@ -143,7 +143,7 @@ TEST(ZoneCauses, TheTreeHoldsTheZonesAndTheirParts) {
             "zone,level [MPa],feature,place,peak_von_mises [MPa],turn,drive_angle [deg],x [mm],y [mm],z "
             "[mm],nodes");
   std::size_t row = 0;
-  const double body_peak = zones[0]["peak_von_mises_Pa"], MPa = 1e6, digits = 1e-11;
+  const double body_peak = zones[0]["peak_von_mises_Pa"], MPa = 1e6, digits = 1e-14;
   const auto next = [&](const std::string& number, double level_Pa, double peak_Pa, double nodes) {
     ASSERT_TRUE(std::getline(text, line));
     EXPECT_EQ(line.substr(0, line.find(',')), number);

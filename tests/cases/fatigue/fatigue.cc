@@ -327,8 +327,8 @@ TEST(Fatigue, SharesInDamagePredictWholeRuns) {
                 100 * places[0]["effect_share_of_amplitude"][effect].get<double>(), 1e-9)
         << effect;
   const double per_hour = places[0]["damage_per_hour"];
-  EXPECT_NEAR(table.at("damage_per_hour")[0], per_hour, 1e-11 * per_hour) << "twelve digits";
-  EXPECT_NEAR(table.at("damage_per_hour")[0] * table.at("life")[0], 1, 1e-11);
+  EXPECT_NEAR(table.at("damage_per_hour")[0], per_hour, 1e-14 * per_hour) << "fifteen digits";
+  EXPECT_NEAR(table.at("damage_per_hour")[0] * table.at("life")[0], 1, 1e-12);
 }
 
 // The tensile strength of the part: K_d times that of the scene, by name in the output; nonsense is refused.

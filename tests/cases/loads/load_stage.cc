@@ -87,7 +87,7 @@ TEST(LoadStage, HarmonicsAreOfTheDrivesAngle) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto loads = csv(directory / "loads.csv");
   const auto& phi_deg = loads.at("phi");
-  EXPECT_NEAR(phi_deg[0], 71, 1e-10);
+  EXPECT_NEAR(phi_deg[0], 71, 1e-12 * 180 / M_PI);
   for (const std::string name : {"debalance.fx", "B_x", "T"}) {
     const auto lines = rows_of(directory / "s/harmonics.csv", name);
     ASSERT_GE(lines.size(), 2u) << name;

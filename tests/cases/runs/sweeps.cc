@@ -316,8 +316,8 @@ TEST(Sweeps, FollowTheZonesOfTheirPoints) {
       }
       const auto figure_name = "bodies.shaft.zones[" + swept.at("zone")[row] + "].peak";
       const double peak_Pa = figure(points[p], figure_name);
-      EXPECT_NEAR(std::stod(swept.at("peak_von_mises [MPa]")[row]), peak_Pa / 1e6, 1e-17 * peak_Pa)
-          << "twelve digits";
+      EXPECT_NEAR(std::stod(swept.at("peak_von_mises [MPa]")[row]), peak_Pa / 1e6, 1e-20 * peak_Pa)
+          << "fifteen digits";
     }
   }
   EXPECT_EQ(row, swept.at("point").size());

@@ -106,7 +106,7 @@ TEST(LoadFiles, TheLoadStageAloneHasNoChannels) {
   EXPECT_TRUE(in.has("/effects/inertia/debalance/fx"));
 }
 
-// Exact numbers, of angles twelve digits of what people read.
+// Exact numbers, of angles fifteen digits of what people read.
 TEST(LoadFiles, CsvHasARowPerInstantAndExactNumbers) {
   const Directory at;
   const auto loads = example();
@@ -139,7 +139,7 @@ TEST(LoadFiles, CsvHasARowPerInstantAndExactNumbers) {
   for (const auto& [title, values] : expected) {
     const auto c = static_cast<std::size_t>(column(title));
     ASSERT_LT(c, titles.size()) << title;
-    const double digits = title.find("[deg]") != std::string::npos ? 1e-11 : 0;
+    const double digits = title.find("[deg]") != std::string::npos ? 1e-14 : 0;
     for (int i = 0; i < n_rows; ++i)
       EXPECT_NEAR(rows[static_cast<std::size_t>(i)][c], values(i), digits * std::abs(values(i))) << title;
   }
