@@ -69,7 +69,7 @@ set(rooms_pipelines
     respond/responses
     superpose/kernels superpose/envelope superpose/between_instants
     judge/estimates judge/figures judge/analysis judge/stages judge/life judge/texts judge/verdict
-    search/cheap_models search/effect_choice search/refinement search/loop
+    search/cheap_models search/effect_choice search/refinement search/models search/loop
     write/drawing write/exports write/fields write/machines write/parts write/pictures write/report write/files
     study/effects study/variations study/accuracy study/sweep
     command/calculix command/options command/check command/commands command/sweep)

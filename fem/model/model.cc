@@ -392,6 +392,10 @@ Eigen::MatrixXd Model::Impl::dual_solutions(const BalancedLoads& loads, const Mi
   return dual;
 }
 
+void Model::release_factor() const {
+  impl_->factor.reset();
+}
+
 std::vector<std::vector<double>> Model::goal_errors_Pa(const UnitResponses& responses,
                                                        const std::vector<StressGoal>& goals) const {
   const auto& grid = impl_->grid;

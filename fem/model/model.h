@@ -101,6 +101,9 @@ public:
   std::vector<std::vector<double>> goal_errors_Pa(const UnitResponses& responses,
                                                   const std::vector<StressGoal>& goals) const;
 
+  /// Gives away the factor that SolverChoice::keep_factor kept; goal_errors_Pa then makes another one.
+  void release_factor() const;
+
   /// The lowest natural frequencies, ascending, without the rigid motions that nothing holds. Mass and
   /// stiffness are consistent, so frequencies come out from above. Clamps hold the body; elastic supports are
   /// springs to the ground against its whole motion, rigid part included (unlike in unit_responses, where

@@ -216,7 +216,7 @@ std::optional<DutyResult> duty_of_loads(const Scene& given, const Scene& scene, 
                                         int n_threads, StageClock& clock) {
   if (scene.duty.empty()) return std::nullopt;
   SceneRun run;
-  run.scene = scene;
+  run.loaded.scene = scene;
   run.loaded.loads = loads;
   auto duty = run_duty(given, run, n_threads, clock);
   for (const auto& sentence : duty.warnings) warn(loads, sentence);
@@ -275,7 +275,8 @@ void warn_of_damage(SceneRun& run) {
 
 /// "NOT OK: welds at web 2, lower edge"
 std::string verdict_on(const SceneRun& run, const std::string& body, const DutyResult* duty) {
-  const auto verdict = judge({run.scene, run.loaded.loads, run.analyses, {}, {}, run.loaded.bearings, duty});
+  const auto verdict =
+      judge({run.loaded.scene, run.loaded.loads, run.analyses, {}, {}, run.loaded.bearings, duty});
   for (const auto& part : verdict.parts)
     if (part.name == body) return headline(part);
   return to_string(Judgement::not_judged);
@@ -289,7 +290,7 @@ std::string draw_body(const std::filesystem::path& place, const Scene& scene, co
   if (n_ranks_of_a_body() == 1)
     return draw(place / "envelope.vtu", place, scene.title, verdict, analysis, duty);
   const AtomicFile whole(place / "envelope_whole.vtu");  // not kept
-  write_whole_envelope(whole.temporary(), run.scene, run.loaded.loads, analysis);
+  write_whole_envelope(whole.temporary(), run.loaded.scene, run.loaded.loads, analysis);
   return draw(whole.temporary(), place, scene.title, verdict, analysis, duty);
 }
 
@@ -313,7 +314,7 @@ std::vector<std::string> write_and_draw(const Request& request, const Scene& sce
   const auto write = [&](std::size_t i) {
     wait_for_ranks();
     if (i < run.analyses.size())
-      write_body_results(place(i), run.scene, loads, run.analyses[i], n_ranks, n_threads);
+      write_body_results(place(i), run.loaded.scene, loads, run.analyses[i], n_ranks, n_threads);
     else if (is_first_rank())
       write_load_results(folder, loads, run.loaded.channels(), n_threads);
   };
@@ -369,7 +370,7 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   for (const auto& fault : write_and_draw(request, scene, run, duty ? &*duty : nullptr, folder, start, clock))
     record.warnings.push_back(fault);
   if (duty && staged) clock.run("write", [&] { write_duty(folder / "duty.csv", *duty); });
-  const Scene reported = with_machine(run.scene, run.loaded.masses.machine);
+  const Scene reported = with_machine(run.loaded.scene, run.loaded.masses.machine);
   const auto torsion = torsion_of(reported, reported.machine, folder, clock);
   finish_run(request, staged ? &*staged : nullptr,
              {reported, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings,

@@ -13,18 +13,18 @@
 
 namespace pipelines {
 
-LoadedScene::LoadedScene() = default;
-LoadedScene::LoadedScene(const LoadedScene&) = default;
-LoadedScene::LoadedScene(LoadedScene&&) noexcept = default;
-LoadedScene& LoadedScene::operator=(const LoadedScene&) = default;
-LoadedScene& LoadedScene::operator=(LoadedScene&&) noexcept = default;
-LoadedScene::~LoadedScene() = default;
+Loaded::Loaded() = default;
+Loaded::Loaded(const Loaded&) = default;
+Loaded::Loaded(Loaded&&) noexcept = default;
+Loaded& Loaded::operator=(const Loaded&) = default;
+Loaded& Loaded::operator=(Loaded&&) noexcept = default;
+Loaded::~Loaded() = default;
 
 namespace {
 
 /// A bearing at a port of a body that turns has the body's speed, which a train's ratios tell from the
 /// drive's.
-std::vector<BearingScene> with_speeds(const Scene& scene, const LoadedScene& loaded) {
+std::vector<BearingScene> with_speeds(const Scene& scene, const Loaded& loaded) {
   std::vector<BearingScene> bearings = scene.bearings;
   for (auto& bearing : bearings)
     for (std::size_t i = 0; i < scene.bodies.size() && !bearing.speed_rad_s; ++i) {
@@ -41,7 +41,7 @@ std::vector<BearingScene> with_speeds(const Scene& scene, const LoadedScene& loa
 
 /// Zeros for bearings at ports that support a body, but that no load of this scene reaches: under torsion
 /// alone, or with an effect off. The scene's reader has refused other names.
-ChannelHistory unloaded_bearings(const Scene& scene, const LoadedScene& loaded) {
+ChannelHistory unloaded_bearings(const Scene& scene, const Loaded& loaded) {
   ChannelHistory zeros;
   for (const auto& bearing : scene.bearings) {
     const bool is_of_body = std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const auto& body) {
@@ -55,7 +55,7 @@ ChannelHistory unloaded_bearings(const Scene& scene, const LoadedScene& loaded) 
 }
 
 /// The channels of each body under loads that the instants pass over.
-void add_passed_over(const Scene& scene, LoadedScene& loaded) {
+void add_passed_over(const Scene& scene, Loaded& loaded) {
   const auto history = with_place(scene.machine_origin, [&] {
     return kind_of(loaded.masses.machine).loads_passed_over(scene, loaded.masses.machine);
   });
@@ -96,14 +96,15 @@ std::vector<MeshedBody> mesh_bodies(const Scene& scene) {
   return bodies;
 }
 
-BodyChannels LoadedScene::channels() const {
+BodyChannels Loaded::channels() const {
   BodyChannels channels;
   for (const auto& body : body_loads) channels.push_back(&body.history);
   return channels;
 }
 
-LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, StageClock& clock) {
-  LoadedScene result;
+Loaded load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, StageClock& clock) {
+  Loaded result;
+  result.scene = scene;
   result.meshed = std::move(meshed);
   result.masses = agree_masses(scene, result.meshed);
   result.loads = clock.run("loads", [&] { return load_stage(scene, result.masses.machine); });

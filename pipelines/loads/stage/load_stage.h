@@ -21,21 +21,25 @@ std::vector<kinetics::Spring> springs_of(const Scene& scene);
 /// Meshes all bodies, in the order of Scene::bodies.
 std::vector<MeshedBody> mesh_bodies(const Scene& scene);
 
+struct StartUp;  // start_up_loads.h
+
 /// A scene's bodies, meshed and loaded: ready to be solved.
-struct LoadedScene {
+struct Loaded {
+  Scene scene;                     ///< with the meshes, instants and harmonics that the loads are of
   std::vector<MeshedBody> meshed;  ///< in the order of Scene::bodies, like body_loads
   MassAgreement masses;
   kinetics::LoadHistory loads;
   std::vector<BodyLoads> body_loads;
   std::vector<BearingResult> bearings;
+  std::shared_ptr<const StartUp> start_up;  ///< by load_start_up, where the scene asks for a start; else null
 
   // In the .cc file: else every file that copies one compiles the copies of all members anew.
-  LoadedScene();
-  LoadedScene(const LoadedScene&);
-  LoadedScene(LoadedScene&&) noexcept;
-  LoadedScene& operator=(const LoadedScene&);
-  LoadedScene& operator=(LoadedScene&&) noexcept;
-  ~LoadedScene();
+  Loaded();
+  Loaded(const Loaded&);
+  Loaded(Loaded&&) noexcept;
+  Loaded& operator=(const Loaded&);
+  Loaded& operator=(Loaded&&) noexcept;
+  ~Loaded();
 
   BodyChannels channels() const;
 };
@@ -45,6 +49,6 @@ struct LoadedScene {
 /// @throws StageRefused if masses of machine and mesh do not agree, supports are missing, or a bearing's load
 /// is none of the scene
 /// @throws NotFinite
-LoadedScene load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, StageClock& clock);
+Loaded load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, StageClock& clock);
 
 }  // namespace pipelines

@@ -73,7 +73,7 @@ std::string in_start_up(const std::string& warning) {
   return "start-up: " + warning;
 }
 
-std::shared_ptr<const StartUp> load_start_up(const Scene& scene, LoadedScene& loaded, StageClock& clock) {
+std::shared_ptr<const StartUp> load_start_up(const Scene& scene, Loaded& loaded, StageClock& clock) {
   const auto& machine = loaded.masses.machine;
   auto history = clock.run("loads", [&] {
     return with_place(scene.machine_origin, [&] {

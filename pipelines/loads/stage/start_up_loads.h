@@ -39,6 +39,6 @@ std::string in_start_up(const std::string& warning);
 /// @param loaded  the steady loads of the bodies; they get the channels that only the start has, as zeros, so
 ///                that one set of unit responses serves both
 /// @throws kinetics::MachineRefused, and as loads_over
-std::shared_ptr<const StartUp> load_start_up(const Scene& scene, LoadedScene& loaded, StageClock& clock);
+std::shared_ptr<const StartUp> load_start_up(const Scene& scene, Loaded& loaded, StageClock& clock);
 
 }  // namespace pipelines

@@ -14,7 +14,6 @@
 #include "pipelines/judge/stages/respond.h"
 #include "pipelines/scene/reader/why_not.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
-#include "pipelines/search/cheap_models/axisymmetric_run.h"
 #include "pipelines/search/cheap_models/nodes_at_maxima.h"
 #include "pipelines/search/cheap_models/torsion_by_feature.h"
 

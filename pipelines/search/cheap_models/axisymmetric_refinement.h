@@ -35,6 +35,7 @@ struct AxisymmetricStep {
 class AxisymmetricRefinement {
 public:
   /// References have to outlive this object.
+  /// @throws StageRefused if why_not_axisymmetric is not empty
   AxisymmetricRefinement(const BodyScene& body, const MeshedBody& meshed, const BodyLoads& loads,
                          int n_threads);
 
@@ -59,5 +60,25 @@ private:
   std::map<std::string, std::vector<double>> values_Pa_, torsion_Pa_;  // by feature, step after step
   int n_steps_ = 0;
 };
+
+/// What axisymmetric_stresses knows.
+struct AxisymmetricStresses {
+  std::vector<PlaceStress> places;
+  LargestTorsion torsion;  ///< of the last section: sections are not refined for its sake
+};
+
+/// A section with so many unknowns is the last one of a second opinion: the next, with some 4 times as many,
+/// would cost more than the solid that it stands beside.
+constexpr std::size_t most_of_second_opinion = 100000;
+
+/// The places of a shaft alone, by sections until no place's error exceeds `target` of the largest value, or
+/// one has too many unknowns: the errors then say so. A second opinion on other models of the same loads: on
+/// concentric shafts values are within their errors of the elastic solution.
+/// @param meshed         features, ports, sharp edges and masses of whatever mesh the loads were made for
+/// @param most_unknowns  of a section that another one follows
+/// @throws as AxisymmetricRefinement
+AxisymmetricStresses axisymmetric_stresses(const BodyScene& body, const MeshedBody& meshed,
+                                           const BodyLoads& loads, int n_threads, double target = 0.005,
+                                           std::size_t most_unknowns = most_of_second_opinion);
 
 }  // namespace pipelines

@@ -113,8 +113,8 @@ EffectBound effect_bound(const std::string& effect, const Difference& change, co
 
 }  // namespace
 
-void bound_dropped_effects(const Scene& scene, std::size_t index, const LoadedScene& loaded,
-                           BodyAnalysis& analysis) {
+void bound_dropped_effects(const Loaded& loaded, std::size_t index, BodyAnalysis& analysis) {
+  const auto& scene = loaded.scene;
   const auto& choice = scene.effect_choice;
   if (choice.dropped.empty()) return;
   const auto& regions = loaded.meshed[index].regions;

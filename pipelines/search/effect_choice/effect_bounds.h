@@ -19,9 +19,8 @@ namespace pipelines {
 /// - acceleration of the whole body as a rigid one makes no stress: the balancing forces are the load itself;
 /// - the rest (spin, acceleration of a part) is estimated as the sum of its forces at that port where a force
 ///   stresses the point most, moments likewise; `estimated_Pa` tells how much of the bound that is.
-/// @param index  of the body in scene.bodies
-void bound_dropped_effects(const Scene& scene, std::size_t index, const LoadedScene& loaded,
-                           BodyAnalysis& analysis);
+/// @param index  of the body in Scene::bodies
+void bound_dropped_effects(const Loaded& loaded, std::size_t index, BodyAnalysis& analysis);
 
 /// The dropped effect that has to come back: where the dropped ones together may move a governing stress by
 /// more than the limit, the one with the largest bound. Empty: none.

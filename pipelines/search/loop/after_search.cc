@@ -2,8 +2,6 @@
 
 #include <memory>
 
-#include "fem/common/deadline.h"
-#include "fem/values/cost_constants.h"
 #include "pipelines/judge/estimates/in_time.h"
 #include "pipelines/judge/life/body_fatigue.h"
 #include "pipelines/judge/stages/body_vibration.h"
@@ -19,11 +17,6 @@ std::string warning_of_left_out(const std::string& body, const std::string& what
 }
 
 }  // namespace
-
-double seconds_of_frequencies(const BodyScene& body, std::size_t n_dofs) {
-  if (body.natural_frequencies <= 0) return 0;
-  return fem::at_present_pace(fem::cost::frequencies_s_per_dof * double(n_dofs));
-}
 
 std::vector<std::string> add_frequencies(const Scene& scene, const MeshedBody& meshed,
                                          const kinetics::LoadHistory& loads, double seconds,

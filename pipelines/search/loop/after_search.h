@@ -8,10 +8,6 @@
 
 namespace pipelines {
 
-/// Seconds that natural frequencies are predicted to take on a mesh of so many unknowns, at the present pace
-/// of the machine; 0 where the body asks for none.
-double seconds_of_frequencies(const BodyScene& body, std::size_t n_dofs);
-
 /// Natural frequencies, where the body asks for them.
 /// @param seconds  that they may take; infinite: no limit
 /// @return warnings; one of them says so if they are left out

@@ -87,8 +87,8 @@ constexpr int most_more_instants_of_blocks = 8, kind_of_instants = 12;
 
 /// Loads of the block over its period; where their spectra ask for more instants than there are, and for more
 /// than those of the scene's own running, at so many; where the instants pass over some, at the most.
-LoadedScene load_block(Scene& scene, double needed_by_scene, const std::vector<MeshedBody>& meshed,
-                       StageClock& clock) {
+Loaded load_block(Scene& scene, double needed_by_scene, const std::vector<MeshedBody>& meshed,
+                  StageClock& clock) {
   auto loaded = load_bodies(scene, meshed, clock);
   double needed = 0;
   bool are_told = true;
@@ -152,8 +152,7 @@ BlockLoads loads_of_block(const DutyBlock& block, const Scene& as_read, const Sc
   });
 }
 
-void add_channels_of_blocks(const Scene& as_read, const Scene& found, LoadedScene& loaded,
-                            StageClock& clock) {
+void add_channels_of_blocks(const Scene& as_read, const Scene& found, Loaded& loaded, StageClock& clock) {
   for (const auto& block : found.duty) {
     auto other = loads_of_block(with_short_start(block), as_read, found, loaded.meshed, clock);
     for (std::size_t b = 0; b < loaded.body_loads.size(); ++b) {

@@ -45,6 +45,6 @@ DutyBlock with_short_start(DutyBlock block);
 
 /// Gives the scene's own loads the channels that only blocks have, with zero factors, so that their unit
 /// responses are solved too.
-void add_channels_of_blocks(const Scene& as_read, const Scene& found, LoadedScene& loaded, StageClock& clock);
+void add_channels_of_blocks(const Scene& as_read, const Scene& found, Loaded& loaded, StageClock& clock);
 
 }  // namespace pipelines

@@ -103,14 +103,14 @@ LoadPeriod period_of(const kinetics::LoadHistory& loads, const Scene& scene) {
 
 DutyResult run_duty(const Scene& as_read, const SceneRun& run, int n_threads, StageClock& clock) {
   DutyResult result;
-  for (const auto& block : run.scene.duty) result.in_operation += block.share;
+  for (const auto& block : run.loaded.scene.duty) result.in_operation += block.share;
   double needed = 0;
   for (const auto& analysis : run.analyses)
     needed = std::max(needed, instants_of_duty(analysis.loads.history));
   std::vector<BlockLoads> loads;
-  for (const auto& block : run.scene.duty) {
-    auto& own =
-        loads.emplace_back(loads_of_block(block, as_read, run.scene, run.loaded.meshed, clock, needed));
+  for (const auto& block : run.loaded.scene.duty) {
+    auto& own = loads.emplace_back(
+        loads_of_block(block, as_read, run.loaded.scene, run.loaded.meshed, clock, needed));
     for (auto& warning : warnings_of(block, own, as_read, run.loaded.loads))
       result.warnings.push_back(std::move(warning));
     result.blocks.push_back({block.name,
@@ -125,7 +125,7 @@ DutyResult run_duty(const Scene& as_read, const SceneRun& run, int n_threads, St
     std::vector<ServedBlock> served;
     clock.run("blocks", [&] {
       for (std::size_t k = 0; k < loads.size(); ++k) {
-        served.push_back(serve(run.scene.duty[k], analysis, loads[k], b, n_threads));
+        served.push_back(serve(run.loaded.scene.duty[k], analysis, loads[k], b, n_threads));
         result.blocks[k].stresses.push_back(stress_of(analysis, served.back()));
       }
     });
@@ -133,18 +133,18 @@ DutyResult run_duty(const Scene& as_read, const SceneRun& run, int n_threads, St
     std::vector<BlockOnBody> blocks;
     for (std::size_t k = 0; k < loads.size(); ++k)
       blocks.push_back({&served[k].running.history, &served[k].von_mises, &served[k].cycles,
-                        period_of(loads[k].loads, *run.scene.duty[k].scene),
+                        period_of(loads[k].loads, *run.loaded.scene.duty[k].scene),
                         result.blocks[k].share / result.in_operation,
                         served[k].starting ? &served[k].starting->history : nullptr,
                         result.blocks[k].starts_per_day / (day_s * result.in_operation),
-                        !run.scene.duty[k].start ? nullptr
-                        : served[k].starting     ? &served[k].start_von_mises
-                                                 : &served[k].von_mises});
+                        !run.loaded.scene.duty[k].start ? nullptr
+                        : served[k].starting            ? &served[k].start_von_mises
+                                                        : &served[k].von_mises});
     result.effects[analysis.scene.name] = effects_of_blocks(blocks);
     result.places[analysis.scene.name] =
         clock.run("fatigue", [&] { return judge_duty(analysis, blocks, threads(n_threads)); });
   }
-  result.bearings = bearings_over_blocks(result.blocks, run.scene.bearings);
+  result.bearings = bearings_over_blocks(result.blocks, run.loaded.scene.bearings);
   return result;
 }
 

@@ -4,14 +4,12 @@
 
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "pipelines/judge/analysis/body_analysis.h"
 #include "pipelines/loads/stage/load_stage.h"
-#include "pipelines/loads/stage/start_up_loads.h"
 #include "pipelines/scene/values/requested_accuracy.h"
 
 namespace pipelines {
@@ -31,10 +29,8 @@ struct SceneRunOptions {
 };
 
 struct SceneRun {
-  Scene scene;  ///< with the meshes, instants and harmonics that were chosen
-  LoadedScene loaded;
-  std::vector<BodyAnalysis> analyses;       ///< in the order of Scene::bodies, or of the only body
-  std::shared_ptr<const StartUp> start_up;  ///< loads of a start that the scene asks for; else null
+  Loaded loaded;                       ///< by the meshes, instants and harmonics that were chosen
+  std::vector<BodyAnalysis> analyses;  ///< in the order of Scene::bodies, or of the only body
   /// Files of unit responses that were kept, as "body/file": hash of their key.
   std::map<std::string, std::string> kept_under;
 
@@ -55,6 +51,8 @@ struct SceneRun {
   bool tells_of_damage() const;
 };
 
+/// Each body by the cheapest model that keeps the tolerance (search.h); then their zones, their fatigue and
+/// their start, on stresses that agree about the loads.
 /// With effects = "auto" those are dropped that matter little (effect_choice.h). Should their bound after the
 /// solve (effect_bounds.h) exceed the limit all the same, one comes back and the bodies are run again.
 /// Leaves mesh.msh and unit_responses.h5, or unit_harmonics.h5, in the bodies' folders. Needs an

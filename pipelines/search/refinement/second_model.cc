@@ -5,7 +5,7 @@
 #include "fem/beam/beam_responses.h"
 #include "pipelines/scene/reader/why_not.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
-#include "pipelines/search/cheap_models/axisymmetric_run.h"
+#include "pipelines/search/cheap_models/axisymmetric_refinement.h"
 #include "pipelines/search/cheap_models/cheap_responses.h"
 
 namespace pipelines {

@@ -88,7 +88,7 @@ AccuracyRow row_of(const std::string& model, const SceneRun& run) {
   AccuracyRow row;
   row.model = model;
   row.fineness = fineness_text(analysis.scene);
-  row.instants_per_turn = run.scene.sampling.instants_per_turn;
+  row.instants_per_turn = run.loaded.scene.sampling.instants_per_turn;
   row.n_dofs = analysis.responses.n_dofs;
   row.value_Pa = stress.value_Pa;
   row.principal_Pa = analysis.envelope.principal.value_Pa[analysis.principal_node];

@@ -42,7 +42,7 @@ std::optional<CheapModel> axisymmetric_model(const BodyScene& body, const meshes
                     "axisymmetric: eccentric shoulders taken as concentric", fineness_text(body)};
 }
 
-AccuracyRow row_of(const std::string& name, const AccuracyBench& bench, const LoadedScene& loaded,
+AccuracyRow row_of(const std::string& name, const AccuracyBench& bench, const Loaded& loaded,
                    CheapModel model, StageClock& clock) {
   const auto& loads = loaded.body_loads[bench.index()];
   const auto& mesh = bench.own().mesh;
@@ -72,7 +72,7 @@ AccuracyRow row_of(const std::string& name, const AccuracyBench& bench, const Lo
 /// @param solve  gives the model, if the body has it
 template <typename Solve>
 std::optional<AccuracyRow> cheap_model(const std::string& name, AccuracyBench& bench, const BodyScene& body,
-                                       const LoadedScene& loaded, Solve&& solve) {
+                                       const Loaded& loaded, Solve&& solve) {
   const auto& mesh = bench.own().mesh;
   std::optional<AccuracyRow> row;
   bench.is_done(name + ", " + fineness_text(body), [&] {

@@ -65,7 +65,6 @@ void fewer_instants(AccuracyBench& bench, const AccuracyRow& full, SceneRun run,
     analysis = superpose_body(scene.bodies[body], run.loaded.meshed[body], run.loaded.body_loads[body],
                               std::move(analysis.responses), bench.options().n_threads, own,
                               {{}, analysis.hot_spots});
-    run.scene = scene;
     auto row = row_of("fewer instants", run);
     row.fineness = fmt::format("{} instants per turn; {}", row.instants_per_turn, row.fineness);
     for (const char* source : {"discretisation", "other_places"})

@@ -16,7 +16,7 @@
 namespace pipelines {
 namespace {
 
-Scene with_masses(Scene scene, const LoadedScene& loaded) {
+Scene with_masses(Scene scene, const Loaded& loaded) {
   scene.machine = loaded.masses.machine;
   return scene;
 }
@@ -282,8 +282,7 @@ bool SweptBodies::body_row(std::size_t p, SweepRow& row, Scratch& scratch) {
 }
 
 /// A body by its cheap model, which is solved for each point.
-void SweptBodies::add_cheap(SweepRow& row, Scene scene, std::size_t b, const LoadedScene& loaded,
-                            Method method) {
+void SweptBodies::add_cheap(SweepRow& row, Scene scene, std::size_t b, const Loaded& loaded, Method method) {
   const std::lock_guard lock(cheap_);
   auto options = run_options("cheap");
   options.only = b;

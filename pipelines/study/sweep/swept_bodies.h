@@ -81,7 +81,7 @@ private:
   SceneRunOptions options_beside(const std::vector<const BodyDesign*>& others, std::size_t b);
   bool body_row(std::size_t p, SweepRow& row, Scratch& scratch);
   SweepRow row_once_solved(std::size_t p, StageClock& clock);
-  void add_cheap(SweepRow& row, Scene scene, std::size_t b, const LoadedScene& loaded, Method method);
+  void add_cheap(SweepRow& row, Scene scene, std::size_t b, const Loaded& loaded, Method method);
   bool is_met_at_its_own_point(const std::vector<SweepRow>& rows, std::size_t p, std::size_t b,
                                double tolerance) const;
 

@@ -10,7 +10,7 @@ namespace pipelines {
 
 BodyDesign::BodyDesign(const Scene& as_read, SceneRun& run, std::size_t i_body, std::string point)
     : searched_for_(std::move(point)),
-      found_(as_read, run.scene, i_body),
+      found_(as_read, run.loaded.scene, i_body),
       meshed_(std::move(run.loaded.meshed[i_body])) {
   const auto analysis = std::find_if(run.analyses.begin(), run.analyses.end(),
                                      [&](const BodyAnalysis& a) { return a.scene.name == found_.body.name; });

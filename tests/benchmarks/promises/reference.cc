@@ -1,7 +1,7 @@
 #include "tests/benchmarks/promises/reference.h"
 
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
-#include "pipelines/search/cheap_models/axisymmetric_run.h"
+#include "pipelines/search/cheap_models/axisymmetric_refinement.h"
 
 namespace promises {
 namespace {

@@ -6,8 +6,9 @@
 
 #include "pipelines/loads/stage/load_stage.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
-#include "pipelines/search/cheap_models/axisymmetric_run.h"
-#include "pipelines/search/cheap_models/beam_run.h"
+#include "pipelines/search/cheap_models/axisymmetric_refinement.h"
+#include "pipelines/search/loop/search.h"
+#include "pipelines/search/models/first_method.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
 
 namespace loaded_shaft {
@@ -60,17 +61,25 @@ inline Scene scene_of(const std::string& text) {
 struct LoadedShaft {
   Scene scene;
   StageClock clock;
-  LoadedScene loaded;
+  Loaded loaded;
 
   explicit LoadedShaft(Scene given) : scene(std::move(given)) {
     loaded = load_bodies(scene, {describe_revolved(scene.bodies[0])}, clock);
   }
   const BodyScene& body() const { return scene.bodies[0]; }
-  BodyAnalysis axisymmetric(double tolerance = 0) {
-    return analyse_axisymmetric(scene, body(), loaded.meshed[0], loaded.body_loads[0], {"", 1}, clock,
-                                tolerance);
+  BodyAnalysis axisymmetric(double tolerance = 0) { return searched(Method::axisymmetric, tolerance); }
+  BodyAnalysis beam() { return searched(Method::beam, 0); }
+  BodyAnalysis searched(Method method, double tolerance) {
+    RunOfBody run;
+    run.options = {"", 1};
+    run.tolerance = tolerance;
+    run.clock = &clock;
+    run.load = [this](const Scene& next, std::vector<MeshedBody> meshed) {
+      return load_bodies(next, std::move(meshed), clock);
+    };
+    auto model = model_of(method, run, loaded);
+    return search(model, run);
   }
-  BodyAnalysis beam() { return analyse_beam(body(), loaded.meshed[0], loaded.body_loads[0], {"", 1}, clock); }
   AxisymmetricStresses stresses(double target) {
     return axisymmetric_stresses(body(), loaded.meshed[0], loaded.body_loads[0], 1, target, 400000);
   }

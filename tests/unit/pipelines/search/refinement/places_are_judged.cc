@@ -9,7 +9,7 @@
 #include "pipelines/judge/analysis/governing_stress.h"
 #include "pipelines/judge/estimates/place_stress.h"
 #include "pipelines/scene/whole/scene.h"
-#include "pipelines/search/loop/search_mesh.h"
+#include "pipelines/search/models/search_mesh.h"
 #include "pipelines/search/refinement/place_history.h"
 #include "pipelines/search/refinement/refinement.h"
 #include "tests/unit/pipelines/examples/row_of_cells.h"

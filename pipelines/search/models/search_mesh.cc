@@ -1,4 +1,4 @@
-#include "pipelines/search/loop/search_mesh.h"
+#include "pipelines/search/models/search_mesh.h"
 
 #include <fmt/core.h>
 #include <sys/resource.h>
@@ -11,6 +11,7 @@
 
 #include "meshes/imported/apart.h"
 #include "pipelines/base/common/refusal_of.h"
+#include "pipelines/loads/stage/load_stage.h"
 #include "pipelines/search/refinement/refinement.h"
 #include "pipelines/search/refinement/solid_refinement.h"
 
@@ -89,6 +90,11 @@ std::optional<SearchMesh> first_mesh_in_time(const BodyScene& body,
 
 }  // namespace
 
+MeshedBody mesh_in_stage(const Scene& scene, const BodyScene& body, const MeshedBody* coarse,
+                         StageClock& clock) {
+  return clock.run("mesh", [&] { return mesh_body(body, springs_of(scene), coarse); });
+}
+
 SearchMesh first_mesh(const BodyScene& body, const std::function<MeshedBody(const BodyScene&)>& mesh,
                       const std::function<double()>& seconds_left) {
   if (auto in_time = first_mesh_in_time(body, mesh, seconds_left)) return std::move(*in_time);
@@ -118,18 +124,17 @@ std::optional<SearchMesh> finer_mesh(const BodyScene& body, const std::function<
   return mesh_nearly_as_fine(body, mesh, seconds_left);
 }
 
-std::string warning_of_overrun(const BodyScene& body, std::size_t n_meshes, std::size_t n_dofs, double end_s,
-                               double now_s) {
+std::string warning_of_overrun(const BodyScene& body, const Search& search, double end_s, double now_s) {
   constexpr double as_good_as_kept = 1.2;
   const bool is_import = std::holds_alternative<meshes::Import>(body.shape);
-  if (!is_import || n_meshes != 1 || end_s <= 0 || now_s <= as_good_as_kept * end_s) return "";
+  if (!is_import || search.steps.size() != 1 || end_s <= 0 || now_s <= as_good_as_kept * end_s) return "";
   return fmt::format(
       "{}: the first mesh took until {:.2g} s, with a limit of {:.2g} s; no result takes less than a mesh of "
       "{} "
       "unknowns: make its cells larger (mesh.size, mesh.cells_per_circle, mesh.smallest_size), or leave "
       "small "
       "features out",
-      body.name, now_s, end_s, n_dofs);
+      body.name, now_s, end_s, search.steps.front().n_dofs);
 }
 
 }  // namespace pipelines

@@ -5,9 +5,18 @@
 #include <optional>
 #include <string>
 
+#include "pipelines/base/common/stage_clock.h"
+#include "pipelines/judge/estimates/search_record.h"
 #include "pipelines/loads/stage/body_mesh.h"
+#include "pipelines/scene/whole/scene.h"
 
 namespace pipelines {
+
+/// Meshes a body, as the stage "mesh".
+/// @param scene   whose springs may hold it
+/// @param coarse  the same mesh with fewer refinements; null: there is none
+MeshedBody mesh_in_stage(const Scene& scene, const BodyScene& body, const MeshedBody* coarse,
+                         StageClock& clock);
 
 struct SearchMesh {
   BodyScene body;  ///< with the fineness of the mesh
@@ -37,7 +46,6 @@ std::optional<SearchMesh> finer_mesh(const BodyScene& body, const std::function<
 /// Of a user's own file whose search ended with its first mesh, long after its limit of time; else empty. One
 /// mesh has to be solved for a result, and that may take longer than there is.
 /// @param end_s  limit of time, from the start of the run; 0: none
-std::string warning_of_overrun(const BodyScene& body, std::size_t n_meshes, std::size_t n_dofs, double end_s,
-                               double now_s);
+std::string warning_of_overrun(const BodyScene& body, const Search& search, double end_s, double now_s);
 
 }  // namespace pipelines

@@ -1,7 +1,6 @@
-#include "pipelines/search/cheap_models/beam_run.h"
+#include "pipelines/search/models/beam_model.h"
 
 #include <array>
-#include <chrono>
 #include <stdexcept>
 #include <utility>
 
@@ -10,7 +9,6 @@
 #include "pipelines/judge/stages/superpose_body.h"
 #include "pipelines/loads/channels/closure.h"
 #include "pipelines/scene/reader/why_not.h"
-#include "pipelines/search/cheap_models/axisymmetric_body.h"
 #include "pipelines/search/cheap_models/cheap_responses.h"
 
 namespace pipelines {
@@ -66,27 +64,47 @@ fem::UnitResponses with_axis(fem::UnitResponses r, int n_angles) {
 
 }  // namespace
 
-BodyAnalysis analyse_beam(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
-                          const RunOptions& options, StageClock& clock) {
-  if (const auto why = why_not_beam(body); !why.empty())
-    throw StageRefused("the " + body.name + " " + why + ": no beam");
-  const auto start = std::chrono::steady_clock::now();
-  MeshedBody own = meshed;
+BodyAnalysis BeamModel::solve() {
+  if (const auto why = why_not_beam(body()); !why.empty())
+    throw StageRefused("the " + body().name + " " + why + ": no beam");
+  const RunTime time;
+  MeshedBody own = meshed();
   own.mesh.sections.clear();
-  auto responses = clock.run("solve", [&] {
-    auto surface = beam_responses(body, own.mesh, loads.unit_loads).value();
-    take_resultants(loads.unit_loads, own.regions, surface);
+  auto responses = clock().run("solve", [&] {
+    auto surface = beam_responses(body(), own.mesh, body_loads().unit_loads).value();
+    take_resultants(body_loads().unit_loads, own.regions, surface);
     return with_axis(std::move(surface), fem::BeamShaft().n_angles);
   });
-  const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
-  auto analysis = superpose_body(body, own, std::move(loads), std::move(responses), options.n_threads, clock);
+  seconds_ = time.seconds();
+  auto analysis =
+      superpose_body(body(), own, body_loads(), std::move(responses), run_.options.n_threads, clock());
   analysis.method = Method::beam;
-  analysis.solve_s = solve.count();
-  for (const auto& entry : beam_model_entries(*beam_shaft(body, own.mesh), analysis.loads,
-                                              analysis.responses.nodes, analysis.envelope.von_mises.value_Pa,
-                                              analysis.places.excluded, analysis.peak.value_Pa))
-    analysis.peak.errors.set_model(entry);
+  analysis.solve_s = seconds_;
   return analysis;
+}
+
+void BeamModel::judge(BodyAnalysis& solved) {
+  for (const auto& entry :
+       beam_model_entries(*beam_shaft(body(), meshed().mesh), solved.loads, solved.responses.nodes,
+                          solved.envelope.von_mises.value_Pa, solved.places.excluded, solved.peak.value_Pa))
+    solved.peak.errors.set_model(entry);
+}
+
+Finer BeamModel::finer(const BodyAnalysis& judged, const Search& search) {
+  auto scene = better_loads_.next(loaded_.scene, run_.index, judged, run_.tolerance);
+  if (!scene)
+    return {nullptr, search.met ? "the tolerance is met"
+                                : "a beam has no mesh to refine (method \"auto\" takes a finer model)"};
+  auto better = std::make_unique<BeamModel>(*this);
+  better->loaded_ = loaded_with(*scene, MeshedBody(meshed()));
+  return {std::move(better), "", seconds_};
+}
+
+BodyAnalysis BeamModel::again(BodyAnalysis& before) {
+  auto after = solve();
+  judge(after);
+  after.search = std::move(before.search);
+  return after;
 }
 
 }  // namespace pipelines

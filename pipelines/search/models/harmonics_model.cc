@@ -1,0 +1,123 @@
+#include "pipelines/search/models/harmonics_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fem/beam/beam_responses.h"
+#include "pipelines/base/common/constants.h"
+#include "pipelines/judge/stages/place_errors.h"
+#include "pipelines/judge/stages/superpose_body.h"
+#include "pipelines/search/cheap_models/axisymmetric_body.h"
+#include "pipelines/search/cheap_models/axisymmetric_refinement.h"
+#include "pipelines/search/cheap_models/cheap_responses.h"
+
+namespace pipelines {
+namespace {
+
+/// Of the discretisation: half of a tolerance, and without one what a second buys.
+constexpr double share_of_tolerance = 0.5, usual_target = 0.01;
+
+/// Bending by axial force and torsion by force across, both by the offset of an eccentric segment's axis from
+/// that of the model; largest over sections and instants, as von Mises stress.
+double offset_axis_Pa(const BodyAnalysis& analysis) {
+  double largest_Pa = 0;
+  if (!analysis.diagrams) return 0;
+  for (const auto& section : analysis.diagrams->sections) {
+    const auto& plane = section.plane;
+    const double offset_m = std::hypot(plane.axis_x_m, plane.axis_y_m);
+    if (offset_m == 0) continue;
+    const double r = plane.radius_m, r_i = plane.inner_radius_m;
+    const double second_m4 = pi / 4 * (std::pow(r, 4) - std::pow(r_i, 4));
+    const double bending_Pa = section.by_statics.row(2).abs().maxCoeff() * offset_m * r / second_m4;
+    const double shear_Pa =
+        section.by_statics.topRows<2>().matrix().colwise().norm().maxCoeff() * offset_m * r / (2 * second_m4);
+    largest_Pa = std::max(largest_Pa, std::hypot(bending_Pa, std::sqrt(3.0) * shear_Pa));
+  }
+  return largest_Pa;
+}
+
+/// Errors of the model itself, which no section lowers.
+void enter_model_errors(BodyAnalysis& analysis) {
+  auto& errors = analysis.peak.errors;
+  errors.set_numerical(
+      {"geometry", "arcs are curves of degree 3: their changes are those of the discretisation", 0});
+  if (const auto beam = beam_shaft(analysis.scene, analysis.mesh))
+    if (const double share = fem::eccentricity_error(*beam); share > 0)
+      errors.set_model({"eccentric_segments",
+                        "eccentric shoulders taken as concentric: the fillets' factors at their heights",
+                        share * analysis.peak.value_Pa});
+  if (const double offset_Pa = offset_axis_Pa(analysis); offset_Pa > 0)
+    errors.set_model(
+        {"offset_axis", "bending and torsion by the offset of eccentric segments' axes", offset_Pa});
+}
+
+MeshedBody with_own_sections(const BodyScene& body, MeshedBody meshed) {
+  meshed.mesh.sections = describe_revolved(body).mesh.sections;
+  return meshed;
+}
+
+}  // namespace
+
+/// The sections so far under the same loads.
+struct HarmonicsModel::Series {
+  MeshedBody meshed;
+  BodyLoads loads;
+  AxisymmetricRefinement refinement;
+  int n_sections = 0;
+  double seconds = 0;
+
+  Series(const BodyScene& body, MeshedBody own, BodyLoads of_body, int n_threads)
+      : meshed(std::move(own)), loads(std::move(of_body)), refinement(body, meshed, loads, n_threads) {}
+};
+
+HarmonicsModel::HarmonicsModel(RunOfBody run, Loaded loaded)
+    : BodyModel(std::move(run), std::move(loaded)),
+      series_(std::make_shared<Series>(body(), with_own_sections(body(), meshed()), body_loads(),
+                                       run_.options.n_threads)) {}
+
+BodyAnalysis HarmonicsModel::solve() {
+  const RunTime time;
+  auto step = series_->refinement.next(clock());
+  ++series_->n_sections;
+  const double target = run_.tolerance > 0 ? share_of_tolerance * run_.tolerance : usual_target;
+  is_section_fine_ = AxisymmetricRefinement::is_met(step, target);
+  fineness_ = step.fineness;
+  places_ = std::move(step.places);
+  torsion_ = step.torsion;
+  if (const auto beam = beam_shaft(body(), meshed().mesh))
+    torsion_.error_Pa += fem::eccentricity_error(*beam) * torsion_.value_Pa;
+  series_->seconds += time.seconds();
+  auto analysis = superpose_body(body(), series_->meshed, body_loads(), std::move(step.responses),
+                                 run_.options.n_threads, clock(), {std::move(step.envelope), {}});
+  analysis.method = Method::axisymmetric;
+  analysis.solve_s = series_->seconds;
+  return analysis;
+}
+
+void HarmonicsModel::judge(BodyAnalysis& solved) {
+  take_place_errors(solved, places_, "change from the coarser section");
+  enter_model_errors(solved);
+  if (solved.diagrams) solved.diagrams->by_harmonics = torsion_;
+}
+
+Finer HarmonicsModel::finer(const BodyAnalysis& judged, const Search& search) {
+  const bool is_last_section = series_->n_sections >= AxisymmetricRefinement::most_steps;
+  if (!is_section_fine_ && !is_last_section) return {std::make_unique<HarmonicsModel>(*this), "", 0};
+  if (auto scene = better_loads_.next(loaded_.scene, run_.index, judged, run_.tolerance)) {
+    auto better = std::make_unique<HarmonicsModel>(run_, loaded_with(*scene, MeshedBody(meshed())));
+    better->better_loads_ = better_loads_;
+    return {std::move(better), "", series_->seconds};
+  }
+  if (search.met) return {nullptr, "the tolerance is met"};
+  return {nullptr,
+          is_section_fine_ ? "the section is fine enough; what is left is not its error" : "too many steps"};
+}
+
+BodyAnalysis HarmonicsModel::again(BodyAnalysis& before) {
+  auto after = BodyModel::again(before);
+  enter_model_errors(after);
+  return after;
+}
+
+}  // namespace pipelines

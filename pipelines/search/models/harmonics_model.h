@@ -1,0 +1,43 @@
+/// A shaft by harmonics around its axis.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pipelines/search/models/better_loads.h"
+#include "pipelines/search/models/body_model.h"
+
+namespace pipelines {
+
+/// One section of a body of revolution (search/cheap_models/axisymmetric_refinement.h). The next model is the
+/// next finer section, until no place of the body exceeds the stated peak by more than half of the tolerance
+/// with its error, by 1 % where there is none; then better loads. Errors of the peak: time sampling and
+/// pressure harmonics as for the solid; discretisation from the change between sections, place by place; of
+/// eccentric segments the model's own (fem::eccentricity_error). A node lies where the largest stress of each
+/// place does (nodes_at_maxima.h).
+class HarmonicsModel : public BodyModel {
+public:
+  /// @param loaded  with the shaft as describe_revolved or the solid's mesh describes it
+  /// @throws StageRefused if why_not_axisymmetric is not empty
+  HarmonicsModel(RunOfBody run, Loaded loaded);
+
+  /// @throws LoadsDoNotClose
+  BodyAnalysis solve() override;
+  void judge(BodyAnalysis& solved) override;
+  Finer finer(const BodyAnalysis& judged, const Search& search) override;
+  std::string fineness() const override { return fineness_; }
+  BodyAnalysis again(BodyAnalysis& before) override;
+
+private:
+  struct Series;
+  std::shared_ptr<Series> series_;
+  BetterLoads better_loads_;
+  // Of the section that was solved:
+  std::string fineness_;
+  bool is_section_fine_ = false;
+  std::vector<PlaceStress> places_;
+  LargestTorsion torsion_;
+};
+
+}  // namespace pipelines
