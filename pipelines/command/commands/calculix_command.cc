@@ -10,7 +10,7 @@
 #include "pipelines/command/calculix/calculix_model.h"
 #include "pipelines/command/options/result_place.h"
 #include "pipelines/command/options/scene_options.h"
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/loads/stage/effect_closure.h"
 #include "pipelines/loads/stage/load_stage.h"
 #include "pipelines/scene/whole/body_kind.h"

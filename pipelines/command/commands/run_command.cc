@@ -23,17 +23,17 @@
 #include "pipelines/command/options/option_value.h"
 #include "pipelines/command/options/result_place.h"
 #include "pipelines/command/options/scene_options.h"
-#include "pipelines/judge/analysis/body_analysis.h"
 #include "pipelines/judge/analysis/error_text.h"
 #include "pipelines/judge/analysis/exclusion_border.h"
 #include "pipelines/judge/analysis/governing_stress.h"
-#include "pipelines/judge/stages/respond.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/judge/texts/life_text.h"
 #include "pipelines/judge/verdict/torsion_report.h"
 #include "pipelines/judge/verdict/verdict_text.h"
 #include "pipelines/loads/channels/load_files.h"
 #include "pipelines/loads/stage/load_stage.h"
 #include "pipelines/loads/stage/start_up_loads.h"
+#include "pipelines/respond/responses/respond.h"
 #include "pipelines/scene/whole/machine_kind.h"
 #include "pipelines/scene/whole/requested_method.h"
 #include "pipelines/search/effect_choice/effect_choice.h"
@@ -68,7 +68,7 @@ const std::vector<DutyPlace>* places_of(const DutyResult& duty, const std::strin
 
 /// The weld toes that last least, each by its row in the terminal's ranking and its life: over all operating
 /// blocks, or without blocks in the scene's own running; none where the scene does not ask for fatigue.
-void note_lives_of_toes(const BodyAnalysis& analysis, const DutyResult* duty, PictureOptions& options) {
+void note_lives_of_toes(const Judged& analysis, const DutyResult* duty, PictureOptions& options) {
   constexpr std::size_t most = 4;
   const auto note = [&](std::size_t row, const std::array<double, 3>& toe_m,
                         const std::optional<double>& life_s, const LifeCertainty& certainty) {
@@ -93,7 +93,7 @@ void note_lives_of_toes(const BodyAnalysis& analysis, const DutyResult* duty, Pi
 /// @param verdict   on the body
 /// @return the line; empty if it is drawn
 std::string draw(const std::filesystem::path& envelope, const std::filesystem::path& directory,
-                 const std::string& title, const std::string& verdict, const BodyAnalysis& analysis,
+                 const std::string& title, const std::string& verdict, const Judged& analysis,
                  const DutyResult* duty) {
   const auto stress = governing_stress(analysis);
   PictureOptions options;
@@ -285,7 +285,7 @@ std::string verdict_on(const SceneRun& run, const std::string& body, const DutyR
 /// The picture of one body, whose envelope is written.
 /// @return as draw
 std::string draw_body(const std::filesystem::path& place, const Scene& scene, const SceneRun& run,
-                      const BodyAnalysis& analysis, const DutyResult* duty) {
+                      const Judged& analysis, const DutyResult* duty) {
   const auto verdict = verdict_on(run, analysis.scene.name, duty);
   if (n_ranks_of_a_body() == 1)
     return draw(place / "envelope.vtu", place, scene.title, verdict, analysis, duty);

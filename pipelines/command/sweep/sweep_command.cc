@@ -22,7 +22,7 @@
 #include "pipelines/command/sweep/sweep_charts.h"
 #include "pipelines/command/sweep/sweep_command_options.h"
 #include "pipelines/command/sweep/sweep_table.h"
-#include "pipelines/judge/stages/respond.h"
+#include "pipelines/respond/responses/respond.h"
 #include "pipelines/respond/responses/response_key.h"
 #include "pipelines/scene/reader/key_settings.h"
 #include "pipelines/scene/reader/scene_tree.h"

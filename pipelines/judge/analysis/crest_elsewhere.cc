@@ -31,15 +31,15 @@ Eigen::ArrayXd series_of(const Eigen::ArrayXXcd& lines, Index n) {
 
 /// @param at_instants_Pa  largest stress at the point at an instant
 /// @param largest_Pa      that of the point with the errors
-void add_crest(const StressPoint& point, double at_instants_Pa, double largest_Pa,
-               const BodyAnalysis& analysis, ErrorBudget& errors) {
+void add_crest(const StressPoint& point, double at_instants_Pa, double largest_Pa, const Responded& analysis,
+               ErrorBudget& errors) {
   const auto unit = unit_stress_at(analysis.responses, point);
   const double excess_Pa = at_instants_Pa + sampling_error_Pa(unit, analysis.loads.history) - largest_Pa;
   if (excess_Pa > errors.of("time_sampling"))
     errors.set_numerical({"time_sampling", "crest between the instants at another point", excess_Pa, 1});
 }
 
-void add_crest_at_node(const ChannelHistory& denser, int n_threads, BodyAnalysis& analysis) {
+void add_crest_at_node(const ChannelHistory& denser, int n_threads, Judged& analysis) {
   const auto crests = envelope(denser, analysis.responses, n_threads);
   const auto node = peak_node(crests.von_mises.value_Pa, analysis.places);
   auto& peak = analysis.peak;
@@ -48,7 +48,7 @@ void add_crest_at_node(const ChannelHistory& denser, int n_threads, BodyAnalysis
               peak.errors);
 }
 
-void add_crest_at_toe(const ChannelHistory& denser, BodyAnalysis& analysis) {
+void add_crest_at_toe(const ChannelHistory& denser, Judged& analysis) {
   const auto& spots = analysis.hot_spots;
   if (spots.empty()) return;
   std::vector<double> crest_Pa;
@@ -88,7 +88,7 @@ ChannelHistory at_denser_instants(const ChannelHistory& loads, Index most) {
   return denser;
 }
 
-void add_crest_elsewhere(BodyAnalysis& analysis, int n_threads) {
+void add_crest_elsewhere(Judged& analysis, int n_threads) {
   const auto add = [&](const ChannelHistory& between) {
     add_crest_at_node(between, n_threads, analysis);
     add_crest_at_toe(between, analysis);

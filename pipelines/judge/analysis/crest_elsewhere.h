@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {
 
@@ -17,9 +17,9 @@ ChannelHistory at_denser_instants(const ChannelHistory& loads, Eigen::Index most
 /// Few instants miss crests by different shares at different points: the largest stress between the instants
 /// may be elsewhere. The point that leads at denser instants is judged by time_sampling.h, and what its crest
 /// exceeds the peak by becomes the peak's entry time_sampling, where that is more; likewise of weld toes,
-/// whose largest has the entry in BodyAnalysis::hot_spot_errors. So are points that lead at samples of a load
+/// whose largest has the entry in Judged::hot_spot_errors. So are points that lead at samples of a load
 /// table that the instants pass over. Costs nothing where the instants are dense.
-void add_crest_elsewhere(BodyAnalysis& analysis, int n_threads);
+void add_crest_elsewhere(Judged& analysis, int n_threads);
 
 /// Instants at which all nodes are superposed: the history's own, and those of add_crest_elsewhere.
 Eigen::Index n_superposed(const ChannelHistory& loads);

@@ -104,7 +104,7 @@ std::string value_with_errors(double value_Pa, const ErrorBudget& errors) {
   return is_any ? text + ", which no mesh lowers" : text;
 }
 
-std::string corners_left_out(const BodyAnalysis& analysis) {
+std::string corners_left_out(const Judged& analysis) {
   constexpr std::size_t told = 4;
   if (!analysis.hot_spots.empty() || analysis.method == Method::beam) return {};
   const auto& edges = analysis.mesh.sharp_edges;
@@ -115,7 +115,7 @@ std::string corners_left_out(const BodyAnalysis& analysis) {
   return text;
 }
 
-std::string rises_towards_edge(const BodyAnalysis& analysis) {
+std::string rises_towards_edge(const Judged& analysis) {
   if (governing_stress(analysis).kind != GoverningStress::Kind::peak) return {};
   const auto* edge = edge_beside_peak(analysis);
   if (edge == nullptr) return {};

@@ -31,7 +31,7 @@ std::string value_with_errors(double value_Pa, const ErrorBudget& errors);
 /// "bore cover_1/shell (9.2 mm), bore shell/cover_2 (9.2 mm)": the sharp corners of the model and within
 /// which distance they are left out, the first four. Empty where there are none, and of bodies whose corners
 /// are weld toes.
-std::string corners_left_out(const BodyAnalysis& analysis);
+std::string corners_left_out(const Judged& analysis);
 
 /// "30.8 MPa +- 12.8 MPa (42 %): discretisation; remedy: --tolerance "5 %"" where the whole error exceeds
 /// largest_plain_error, with the largest source; else empty.
@@ -44,7 +44,7 @@ std::string remedy_of_error(const ErrorBudget& errors, const Search& search);
 
 /// "the stress rises towards the sharp inner edge a/b, of which 1.8 mm are left out, ...": where the peak
 /// leads and lies at the border of what is left out; else empty. With what would give a stress to judge.
-std::string rises_towards_edge(const BodyAnalysis& analysis);
+std::string rises_towards_edge(const Judged& analysis);
 
 /// "shaft, step 2: 86865 unknowns, 104.9 MPa known to 2.5 %, 4.3 s": the last step, as it is told meanwhile.
 std::string text_of_step(const std::string& body, const Search& search);

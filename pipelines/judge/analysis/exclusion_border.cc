@@ -162,13 +162,13 @@ double rise_to_border_Pa(const StressBesideEdges& body, const PlaceStress& place
   return border.largest_Pa() - place.value_Pa;
 }
 
-double rise_to_border_Pa(const BodyAnalysis& analysis, const PlaceStress& place) {
+double rise_to_border_Pa(const Superposed& analysis, const PlaceStress& place) {
   return rise_to_border_Pa(
       {analysis.responses.nodes, analysis.envelope.von_mises.value_Pa, analysis.places, analysis.mesh},
       place);
 }
 
-double largest_at_border_Pa(const BodyAnalysis& analysis) {
+double largest_at_border_Pa(const Superposed& analysis) {
   const auto& nodes = analysis.responses.nodes;
   const StressBesideEdges body{nodes, analysis.envelope.von_mises.value_Pa, analysis.places, analysis.mesh};
   Border border(body, 0);
@@ -176,7 +176,7 @@ double largest_at_border_Pa(const BodyAnalysis& analysis) {
   return border.largest_Pa();
 }
 
-const meshes::SharpEdge* edge_beside_peak(const BodyAnalysis& analysis) {
+const meshes::SharpEdge* edge_beside_peak(const Judged& analysis) {
   const auto* nearest =
       nearest_border(analysis.mesh.sharp_edges, analysis.peak.position_m, analysis.peak.feature);
   if (nearest == nullptr) return nullptr;
@@ -206,7 +206,7 @@ bool is_at_border(const meshes::BodyMesh& mesh, const std::array<double, 3>& poi
 namespace {
 
 /// Of tetrahedra that may be larger than what is left out: those count that reach from the place to within.
-double tetrahedra_to_border(const BodyAnalysis& analysis, const PlaceStress& place) {
+double tetrahedra_to_border(const Superposed& analysis, const PlaceStress& place) {
   const auto& nodes = analysis.responses.nodes;
   const auto* edge = nearest_border(analysis.mesh.sharp_edges, place.position_m, place.feature);
   if (edge == nullptr) return 0;
@@ -222,7 +222,7 @@ double tetrahedra_to_border(const BodyAnalysis& analysis, const PlaceStress& pla
 
 }  // namespace
 
-double cells_to_border(const BodyAnalysis& analysis, const PlaceStress& place) {
+double cells_to_border(const Superposed& analysis, const PlaceStress& place) {
   if (analysis.responses.nodes.shape().is_tetrahedron()) return tetrahedra_to_border(analysis, place);
   const double left_out_m = left_out_beside_m(analysis.mesh, place.position_m);
   const double face_m = left_out_m > 0 ? longest_face_m(analysis.responses.nodes, place.node) : 0;

@@ -7,7 +7,7 @@
 
 #include "fem/values/unit_responses.h"
 #include "meshes/values/body_mesh.h"
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/judge/estimates/place_stress.h"
 #include "pipelines/superpose/envelope/zones.h"
 
@@ -27,15 +27,15 @@ struct StressBesideEdges {
 /// Nothing where a row of nodes lies on the border.
 /// @return [Pa], at least 0
 double rise_to_border_Pa(const StressBesideEdges& body, const PlaceStress& place);
-double rise_to_border_Pa(const BodyAnalysis& analysis, const PlaceStress& place);
+double rise_to_border_Pa(const Superposed& analysis, const PlaceStress& place);
 
 /// The largest stress of the surface on the border of the exclusion distances, read like rise_to_border_Pa,
 /// and at the nodes next to it; 0 where nothing is left out.
-double largest_at_border_Pa(const BodyAnalysis& analysis);
+double largest_at_border_Pa(const Superposed& analysis);
 
 /// The sharp edge towards which the peak rises: the peak is on the border of what is left out, or a face that
 /// it is on has a larger stress nearer to the edge. Null: none.
-const meshes::SharpEdge* edge_beside_peak(const BodyAnalysis& analysis);
+const meshes::SharpEdge* edge_beside_peak(const Judged& analysis);
 
 /// Distance of a point to the nearest border of the exclusion distances [m]: negative within; the largest
 /// number of a body without sharp edges.
@@ -49,6 +49,6 @@ bool is_at_border(const meshes::BodyMesh& mesh, const std::array<double, 3>& poi
 /// How many cells, as long as the largest at the place's maximum, would fit between a sharp edge beside it
 /// and the border of what is left out there; 0 where no edge is near or no face is at the maximum. Of
 /// hexahedra on shafts, and of tetrahedra, of which the maximum may lie a whole cell beyond the border.
-double cells_to_border(const BodyAnalysis& analysis, const PlaceStress& place);
+double cells_to_border(const Superposed& analysis, const PlaceStress& place);
 
 }  // namespace pipelines

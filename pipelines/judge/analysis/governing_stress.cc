@@ -10,20 +10,20 @@ namespace pipelines {
 namespace {
 
 /// The yield strength is the same all over a body: the larger stress has the smaller safety.
-bool hot_spot_governs(const BodyAnalysis& analysis) {
+bool hot_spot_governs(const Judged& analysis) {
   return !analysis.hot_spots.empty() && analysis.hot_spots.front().von_mises_Pa > analysis.peak.value_Pa;
 }
 
 /// What a more expensive model than a beam or harmonics would lower, as a share of the body's peak; 0 of a
 /// solid.
-double share_of_cheap_model(const BodyAnalysis& analysis) {
+double share_of_cheap_model(const Judged& analysis) {
   const auto& peak = analysis.peak;
   return peak.value_Pa > 0 ? (peak.errors.reducible_Pa() - peak.errors.numerical_Pa()) / peak.value_Pa : 0;
 }
 
 /// Whether a height is on an eccentric segment, or within its diameter of one: farther away what its offset
 /// changes has died out.
-bool is_beside_eccentric_segment(const BodyAnalysis& analysis, double z_m) {
+bool is_beside_eccentric_segment(const Responded& analysis, double z_m) {
   const auto& planes = analysis.mesh.sections;
   return std::any_of(planes.begin(), planes.end(), [&](const auto& plane) {
     return std::hypot(plane.axis_x_m, plane.axis_y_m) > 0 && std::abs(z_m - plane.z_m) <= 2 * plane.radius_m;
@@ -34,7 +34,7 @@ bool is_beside_eccentric_segment(const BodyAnalysis& analysis, double z_m) {
 /// concentric: what that costs at their fillets it costs in pascals beside them, too. The seat and its
 /// shoulders, which the offset brings nearer to the flow of bending, had 19.0 and 14.2 MPa where the solid
 /// has 22.2 and 18.9, and the fillets 98.6 where it has 103.5.
-double error_of_cheap_model_Pa(const BodyAnalysis& analysis, double value_Pa, double z_m, double times = 1) {
+double error_of_cheap_model_Pa(const Judged& analysis, double value_Pa, double z_m, double times = 1) {
   const double share = share_of_cheap_model(analysis), own_Pa = share * value_Pa;
   if (analysis.method != Method::axisymmetric || !(share > 0) || !is_beside_eccentric_segment(analysis, z_m))
     return own_Pa;
@@ -62,7 +62,7 @@ double without_load_patches_Pa(const ErrorBudget& errors) {
   return errors.total_Pa() - errors.numerical_Pa() - of_load_patches_Pa(errors);
 }
 
-bool is_maximum_of_its_place(const BodyAnalysis& analysis, const std::string& feature, std::size_t node) {
+bool is_maximum_of_its_place(const Judged& analysis, const std::string& feature, std::size_t node) {
   return std::none_of(analysis.place_stresses.begin(), analysis.place_stresses.end(),
                       [&](const auto& place) { return place.feature == feature && place.node != node; });
 }
@@ -73,7 +73,7 @@ std::string GoverningStress::name() const {
   return kind == Kind::hot_spot ? "hot-spot stress" : "peak von Mises stress";
 }
 
-GoverningStress governing_stress(const BodyAnalysis& analysis) {
+GoverningStress governing_stress(const Judged& analysis) {
   GoverningStress stress;
   if (hot_spot_governs(analysis)) {
     const auto& spot = analysis.hot_spots.front();
@@ -97,11 +97,11 @@ GoverningStress governing_stress(const BodyAnalysis& analysis) {
   return stress;
 }
 
-ErrorBudget& errors_of_governing(BodyAnalysis& analysis) {
+ErrorBudget& errors_of_governing(Judged& analysis) {
   return hot_spot_governs(analysis) ? analysis.hot_spot_errors : analysis.peak.errors;
 }
 
-std::optional<double> error_Pa(const BodyAnalysis& analysis, const Zone& zone) {
+std::optional<double> error_Pa(const Judged& analysis, const Zone& zone) {
   if (zone.peak_node == analysis.peak.node) return analysis.peak.errors.reducible_Pa();
   if (!zone.error_Pa) return std::nullopt;
   return *zone.error_Pa +
@@ -110,11 +110,11 @@ std::optional<double> error_Pa(const BodyAnalysis& analysis, const Zone& zone) {
              is_maximum_of_its_place(analysis, zone.feature, zone.peak_node) ? 1 : times_elsewhere_on_fillet);
 }
 
-double error_Pa(const BodyAnalysis& analysis, const PlaceStress& place) {
+double error_Pa(const Judged& analysis, const PlaceStress& place) {
   return place.error_Pa + error_of_cheap_model_Pa(analysis, place.value_Pa, place.position_m[2]);
 }
 
-double model_error_share(const BodyAnalysis& analysis, const std::string& feature, std::size_t node) {
+double model_error_share(const Judged& analysis, const std::string& feature, std::size_t node) {
   const auto& peak = analysis.peak;
   if (!(peak.value_Pa > 0)) return 0;
   const double all = without_load_patches_Pa(peak.errors) / peak.value_Pa,
@@ -127,12 +127,12 @@ double model_error_share(const BodyAnalysis& analysis, const std::string& featur
                         value_Pa;
 }
 
-double stated_error_share(const BodyAnalysis& analysis, const std::string& feature) {
+double stated_error_share(const Judged& analysis, const std::string& feature) {
   const auto& peak = analysis.peak;
   return feature == peak.feature && peak.value_Pa > 0 ? peak.errors.total_Pa() / peak.value_Pa : 0;
 }
 
-double whole_error_share(const BodyAnalysis& analysis, const HotSpotStress& spot) {
+double whole_error_share(const Judged& analysis, const HotSpotStress& spot) {
   const bool is_judged = std::any_of(analysis.place_stresses.begin(), analysis.place_stresses.end(),
                                      [&](const auto& place) { return place.feature == spot.name; });
   if (!is_judged) return std::numeric_limits<double>::infinity();
@@ -147,7 +147,7 @@ double whole_error_share(const BodyAnalysis& analysis, const HotSpotStress& spot
          without_load_patches_Pa(errors) / first_Pa;
 }
 
-double error_Pa(const BodyAnalysis& analysis, const HotSpotStress& spot) {
+double error_Pa(const Judged& analysis, const HotSpotStress& spot) {
   const HotSpotStress& first = analysis.hot_spots.front();
   const ErrorBudget& errors = analysis.hot_spot_errors;
   if (spot.name == first.name) return errors.numerical_Pa();

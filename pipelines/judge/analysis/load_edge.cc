@@ -107,7 +107,7 @@ std::vector<std::int32_t> smooth_border(const fem::Nodes& nodes, int group) {
 
 }  // namespace
 
-void add_load_edge_error(BodyAnalysis& analysis) {
+void add_load_edge_error(Judged& analysis) {
   const auto& nodes = analysis.responses.nodes;
   const auto& value_Pa = analysis.envelope.von_mises.value_Pa;
   double beyond_Pa = 0;

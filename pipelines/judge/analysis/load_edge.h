@@ -1,7 +1,7 @@
 /// The model error of the ends of loaded seats, where the pressure of the model ends at once.
 #pragma once
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {
 
@@ -16,6 +16,6 @@ inline constexpr double share_at_load_edge = 0.3, share_of_a_node = 0.34;
 /// pressure, or share_of_a_node of the pressure where that is more, could exceed the peak by
 /// share_at_load_edge. No mesh lowers it: how the pressure of the real part ends is not known. Ends at an
 /// edge of the body itself, and axial profiles that end with zero, have none.
-void add_load_edge_error(BodyAnalysis& analysis);
+void add_load_edge_error(Judged& analysis);
 
 }  // namespace pipelines

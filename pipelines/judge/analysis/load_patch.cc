@@ -65,8 +65,7 @@ struct FeltPoint {
   std::vector<std::array<double, 6>> unit_Pa;
   std::map<std::string, StressByHarmonic> harmonics;  // by port
 
-  FeltPoint(const BodyAnalysis& analysis, const StressPoint& point, double stress_Pa,
-            const Pressures& pressures)
+  FeltPoint(const Responded& analysis, const StressPoint& point, double stress_Pa, const Pressures& pressures)
       : value_Pa(stress_Pa), unit_Pa(unit_stress_at(analysis.responses, point)) {
     for (const auto& [port, pressure] : pressures)
       harmonics.emplace(port, StressByHarmonic(pressure, unit_Pa));
@@ -76,18 +75,18 @@ struct FeltPoint {
   }
 };
 
-FeltPoint peak_of(const BodyAnalysis& analysis, const Pressures& pressures) {
+FeltPoint peak_of(const Judged& analysis, const Pressures& pressures) {
   return {analysis, {{{analysis.peak.node, 1.0}}, analysis.peak.instant}, analysis.peak.value_Pa, pressures};
 }
 
-FeltPoint toe_of(const BodyAnalysis& analysis, const Pressures& pressures) {
+FeltPoint toe_of(const Judged& analysis, const Pressures& pressures) {
   const auto& spot = analysis.hot_spots.front();
   return {analysis, stress_point(spot), spot.von_mises_Pa, pressures};
 }
 
 /// By port, of the place alone.
 /// @param values  channels x instants
-std::map<std::string, Rise> rise_by_port(const BodyAnalysis& analysis, const Pressures& pressures,
+std::map<std::string, Rise> rise_by_port(const Responded& analysis, const Pressures& pressures,
                                          const FeltPoint& place, const ArrayXXd& values) {
   const double own_Pa = place.under(values);
   std::map<std::string, Rise> result;
@@ -130,7 +129,7 @@ std::string condition_of(const std::map<std::string, Rise>& by_port, const Press
   return text + " degrees in all";
 }
 
-void enter(ErrorBudget& budget, const std::string& source, const BodyAnalysis& analysis,
+void enter(ErrorBudget& budget, const std::string& source, const Responded& analysis,
            const Pressures& pressures, const FeltPoint& place, Rise rise) {
   const auto by_port = rise_by_port(analysis, pressures, place, analysis.loads.history.values);
   Rise sum;
@@ -153,7 +152,7 @@ void enter(ErrorBudget& budget, const std::string& source, const BodyAnalysis& a
   budget.set_model(entry);
 }
 
-void add_entries(BodyAnalysis& analysis, const std::string& source, const Pressures& pressures) {
+void add_entries(Judged& analysis, const std::string& source, const Pressures& pressures) {
   if (pressures.empty()) return;
   const auto& values = analysis.loads.history.values;
   const auto own = largest_stresses(analysis);
@@ -198,13 +197,13 @@ double between_solved_Pa(const SolvedPressure& pressure, const StressByHarmonic&
 
 }  // namespace
 
-void add_load_patch_error(BodyAnalysis& analysis) {
+void add_load_patch_error(Judged& analysis) {
   const auto pressures = solved_pressures(analysis.loads);
   add_entries(analysis, "load_patches", that_are(pressures, false));
   add_entries(analysis, charge_patch, that_are(pressures, true));
 }
 
-double load_patch_error_Pa(const BodyAnalysis& analysis, const StressPoint& point, const ArrayXXd& values) {
+double load_patch_error_Pa(const Responded& analysis, const StressPoint& point, const ArrayXXd& values) {
   const auto pressures = solved_pressures(analysis.loads);
   if (pressures.empty()) return 0;
   double sum_Pa = 0;
@@ -214,7 +213,7 @@ double load_patch_error_Pa(const BodyAnalysis& analysis, const StressPoint& poin
   return sum_Pa;
 }
 
-std::set<std::string> felt_seats(const BodyAnalysis& analysis) {
+std::set<std::string> felt_seats(const Judged& analysis) {
   const auto pressures = solved_pressures(analysis.loads);
   std::set<std::string> ports;
   const auto look_at = [&](const FeltPoint& place) {

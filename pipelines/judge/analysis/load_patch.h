@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {
 
@@ -19,19 +19,19 @@ namespace pipelines {
 ///
 /// Nothing else is varied: forces on faces and added masses act on their whole port, whose size the scene
 /// gives. A body without seat pressures, or whose governing stress does not feel them, gets no entry.
-void add_load_patch_error(BodyAnalysis& analysis);
+void add_load_patch_error(Judged& analysis);
 
 /// What other half angles of all pressures may change the largest stress at a point by, the ports added [Pa]:
 /// what the entries have of the governing point, of any point and loads.
 /// @param values  channels x instants, in the order of the analysis' loads; those themselves, or half a
 /// change
 ///                of them
-double load_patch_error_Pa(const BodyAnalysis& analysis, const StressPoint& point,
+double load_patch_error_Pa(const Responded& analysis, const StressPoint& point,
                            const Eigen::ArrayXXd& values);
 
 /// Ports whose pressure is felt where the body's stress is largest, and of which harmonics that other half
 /// angles have up to the third, or the scene's highest one, were not solved: by more than a five-hundredth of
 /// the stress.
-std::set<std::string> felt_seats(const BodyAnalysis& analysis);
+std::set<std::string> felt_seats(const Judged& analysis);
 
 }  // namespace pipelines

@@ -45,7 +45,7 @@ double largest_over_ranks(double value, const fem::UnitResponses& responses) {
 
 /// @param value_Pa  of a point: (its unit stresses, its stress in the analysis) -> new stress
 template <typename Value>
-LargestStresses largest(const BodyAnalysis& analysis, const ArrayXXd& change, const MoreStress& more,
+LargestStresses largest(const Judged& analysis, const ArrayXXd& change, const MoreStress& more,
                         const Value& value_Pa) {
   const auto& responses = analysis.responses;
   const ArrayXd sizes = change.abs().rowwise().maxCoeff();
@@ -86,18 +86,18 @@ double largest_von_mises_Pa(const double* unit, const ArrayXXd& factors) {
   return most_Pa;
 }
 
-LargestStresses largest_stresses(const BodyAnalysis& analysis) {
+LargestStresses largest_stresses(const Judged& analysis) {
   return {analysis.peak.value_Pa, analysis.hot_spots.empty() ? 0 : analysis.hot_spots.front().von_mises_Pa};
 }
 
-LargestStresses largest_under(const BodyAnalysis& analysis, const ArrayXXd& change) {
+LargestStresses largest_under(const Judged& analysis, const ArrayXXd& change) {
   const ArrayXXd factors = analysis.loads.history.values + change;
   return largest(
       analysis, change, [](const double*) { return 0.0; },
       [&](const double* unit, double) { return largest_von_mises_Pa(unit, factors); });
 }
 
-LargestStresses bound_under(const BodyAnalysis& analysis, const ArrayXXd& change, const MoreStress& more) {
+LargestStresses bound_under(const Judged& analysis, const ArrayXXd& change, const MoreStress& more) {
   return largest(analysis, change, more, [&](const double* unit, double own_Pa) {
     return own_Pa + largest_von_mises_Pa(unit, change) + more(unit);
   });

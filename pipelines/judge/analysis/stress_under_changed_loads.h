@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {
 
@@ -21,7 +21,7 @@ struct LargestStresses {
 };
 
 /// Those that the analysis has.
-LargestStresses largest_stresses(const BodyAnalysis& analysis);
+LargestStresses largest_stresses(const Judged& analysis);
 
 /// Stress that a point may have besides, from the unit stresses of its channels: K times (xx, yy, zz, xy, yz,
 /// xz), as UnitResponses::stress_Pa has them for a node [Pa].
@@ -29,12 +29,11 @@ using MoreStress = std::function<double(const double* unit)>;
 
 /// The same under the analysis' loads plus a change.
 /// @param change  K x instants, in the order of the analysis' channels
-LargestStresses largest_under(const BodyAnalysis& analysis, const Eigen::ArrayXXd& change);
+LargestStresses largest_under(const Judged& analysis, const Eigen::ArrayXXd& change);
 
 /// Upper bound of what the stresses become by a change, whatever its sign: the largest of every point's own
 /// stress plus the largest von Mises stress of the change there, plus `more`.
-LargestStresses bound_under(const BodyAnalysis& analysis, const Eigen::ArrayXXd& change,
-                            const MoreStress& more);
+LargestStresses bound_under(const Judged& analysis, const Eigen::ArrayXXd& change, const MoreStress& more);
 
 /// Largest von Mises stress over the instants of unit stresses times factors (K x instants) [Pa].
 double largest_von_mises_Pa(const double* unit, const Eigen::ArrayXXd& factors);

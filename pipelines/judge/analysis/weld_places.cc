@@ -70,7 +70,7 @@ double WeldPlace::unresolved_share(const FactorCourse& course, const ToeStress& 
          (range_Pa / 2);
 }
 
-std::vector<WeldPlace> weld_places(const BodyAnalysis& analysis) {
+std::vector<WeldPlace> weld_places(const Judged& analysis) {
   if (analysis.hot_spots.empty()) return {};
   const auto& scene = analysis.scene.fatigue.value();
   const SurfaceSlopes surface(analysis.responses.nodes);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pipelines/base/fatigue/weld_fatigue.h"
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/superpose/between_instants/factor_course.h"
 
 namespace pipelines {
@@ -44,7 +44,7 @@ struct WeldPlace {
 /// @throws StageRefused if the scene's fatigue names a toe that the body does not have
 void require_toes(const BodyScene& body, const meshes::BodyMesh& mesh);
 
-/// Of all toes, in the order of BodyAnalysis::hot_spots.
-std::vector<WeldPlace> weld_places(const BodyAnalysis& analysis);
+/// Of all toes, in the order of Judged::hot_spots.
+std::vector<WeldPlace> weld_places(const Judged& analysis);
 
 }  // namespace pipelines

@@ -150,7 +150,7 @@ struct JudgedLoads {
 
 FatiguePlace place_of(const std::string& feature, const JudgedNode& worst,
                       const std::vector<std::size_t>& by_lines, const FatiguePlaces& search,
-                      const BodyAnalysis& analysis, const JudgedLoads& loads, const FatigueRules& rules,
+                      const Judged& analysis, const JudgedLoads& loads, const FatigueRules& rules,
                       const LoadPeriod& period) {
   FatiguePlace place;
   place.feature = feature;
@@ -195,7 +195,7 @@ std::vector<double> shares_of_range(const WeldPlace& place, const ChannelHistory
   return shares;
 }
 
-WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const BodyAnalysis& analysis,
+WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const Responded& analysis,
                     const ChannelHistory& loads, const LoadPeriod& period) {
   const auto toe = place.stress(course);
   const auto amplitude = toe.cycles.size() > 1 ? LoadAmplitude::variable : LoadAmplitude::constant;
@@ -236,7 +236,7 @@ WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const Bo
   return weld;
 }
 
-std::vector<WeldFatigue> judge_welds(const BodyAnalysis& analysis, const FactorCourse& course,
+std::vector<WeldFatigue> judge_welds(const Judged& analysis, const FactorCourse& course,
                                      const ChannelHistory& loads, const LoadPeriod& period) {
   std::vector<WeldFatigue> welds;
   for (const auto& place : weld_places(analysis))
@@ -248,7 +248,7 @@ std::vector<WeldFatigue> judge_welds(const BodyAnalysis& analysis, const FactorC
   return welds;
 }
 
-ZoneDamage damage_of(const Zone& zone, const FatiguePlaces& search, const BodyAnalysis& analysis,
+ZoneDamage damage_of(const Zone& zone, const FatiguePlaces& search, const Judged& analysis,
                      const ChannelHistory& loads, const FatigueRules& rules, const LoadPeriod& period,
                      bool is_on_surface) {
   ZoneDamage result;
@@ -273,7 +273,7 @@ ZoneDamage damage_of(const Zone& zone, const FatiguePlaces& search, const BodyAn
 
 /// FKM's d_eff: of a contour the largest of its segments, by 4 V / O of a long bar or tube; of other bodies
 /// 4 V / O. 0 where a rank knows a part of the body.
-double effective_diameter(const BodyAnalysis& analysis) {
+double effective_diameter(const Responded& analysis) {
   if (const auto* shaft = analysis.scene.shaft()) {
     double largest_m = 0;
     for (const auto& segment : shaft->geometry.segments)
@@ -296,7 +296,7 @@ double effective_diameter(const BodyAnalysis& analysis) {
 
 /// Every kind of material of the group, at the place that is used most. The direction of counting is that
 /// of the strength as given.
-void take_sizes(const BodyAnalysis& analysis, const FatiguePlaces& search, const FatigueRules& rules,
+void take_sizes(const Responded& analysis, const FatiguePlaces& search, const FatigueRules& rules,
                 const LoadPeriod& period, BodyFatigue& fatigue) {
   fatigue.effective_diameter_m = effective_diameter(analysis);
   if (!(fatigue.effective_diameter_m > 0) || fatigue.places.empty() || rules.scene().endurance_Pa) return;
@@ -373,7 +373,7 @@ std::vector<std::string> warnings_of(const FatigueRules& rules, const std::strin
 
 }  // namespace
 
-BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period, int n_threads) {
+BodyFatigue judge_fatigue(const Judged& analysis, const LoadPeriod& period, int n_threads) {
   const FatigueRules rules(analysis.scene.fatigue.value());
   const auto& nodes = analysis.responses.nodes;
   BodyFatigue fatigue;

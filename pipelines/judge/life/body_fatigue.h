@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "pipelines/base/fatigue/technological_size.h"
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/judge/life/life_certainty.h"
 #include "pipelines/judge/life/nominal_fatigue.h"
 #include "pipelines/superpose/envelope/nodal_cycles.h"
@@ -104,7 +104,7 @@ struct BodyFatigue {
   std::vector<FatiguePlace> places;     ///< by falling utilisation
   std::vector<NominalFatigue> nominal;  ///< fillets of steel shafts by DIN 743, least safety first
   std::vector<WeldFatigue> welds;       ///< by rising life, then by falling range
-  std::vector<ZoneDamage> zones;        ///< in the order of BodyAnalysis::zones
+  std::vector<ZoneDamage> zones;        ///< in the order of Judged::zones
   double effective_diameter_m = 0;      ///< d_eff of FKM; 0: with a size_factor, or not known
   std::vector<LifeAtSize> at_size;      ///< by kind of material of the group (technological_size.h)
   std::vector<std::string> warnings;    ///< where the rules do not hold
@@ -112,6 +112,6 @@ struct BodyFatigue {
 
 /// @param analysis  with envelope, places and loads; its scene asks for fatigue
 /// @param period    of the loads
-BodyFatigue judge_fatigue(const BodyAnalysis& analysis, const LoadPeriod& period, int n_threads);
+BodyFatigue judge_fatigue(const Judged& analysis, const LoadPeriod& period, int n_threads);
 
 }  // namespace pipelines

@@ -141,7 +141,7 @@ std::vector<double> shares_of(const VectorXd& derivative) {
   return shares;
 }
 
-StressShares shares_in_damage(const BodyAnalysis& analysis, const ChannelHistory& loads,
+StressShares shares_in_damage(const Responded& analysis, const ChannelHistory& loads,
                               const FatiguePlaces& search, const FatigueRules& rules, const FatigueNode& node,
                               const CountedNode& counted, bool with_channels) {
   StressShares shares;

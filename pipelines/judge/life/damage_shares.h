@@ -85,7 +85,7 @@ std::vector<double> shares_of(const Eigen::VectorXd& derivative);
 /// Of a node's cycles over a period. Empty where nothing changes.
 /// @param loads         those that `search` has
 /// @param with_channels else their shares stay empty
-StressShares shares_in_damage(const BodyAnalysis& analysis, const ChannelHistory& loads,
+StressShares shares_in_damage(const Responded& analysis, const ChannelHistory& loads,
                               const FatiguePlaces& search, const FatigueRules& rules, const FatigueNode& node,
                               const CountedNode& counted, bool with_channels);
 

@@ -153,7 +153,7 @@ SlopesOf equivalents_along(const Eigen::Matrix<double, 6, 1>& form, const Endura
 
 class DutyJudge {
 public:
-  DutyJudge(const BodyAnalysis& analysis, const std::vector<BlockOnBody>& blocks)
+  DutyJudge(const Judged& analysis, const std::vector<BlockOnBody>& blocks)
       : analysis_(analysis),
         blocks_(blocks),
         shares_(effects_of_blocks(blocks)),
@@ -411,7 +411,7 @@ private:
                                                             block.starting->values, cycle.amplitude_Pa);
   }
 
-  const BodyAnalysis& analysis_;
+  const Judged& analysis_;
   const std::vector<BlockOnBody>& blocks_;
   DutyShares shares_;
   FatigueRules rules_;
@@ -422,7 +422,7 @@ private:
 
 }  // namespace
 
-std::vector<DutyPlace> judge_duty(const BodyAnalysis& analysis, const std::vector<BlockOnBody>& blocks,
+std::vector<DutyPlace> judge_duty(const Judged& analysis, const std::vector<BlockOnBody>& blocks,
                                   int n_threads) {
   const DutyJudge judge(analysis, blocks);
   const auto features = nodes_by_feature(analysis);

@@ -65,7 +65,7 @@ struct DutyPlace {
 /// Each block is counted along the direction in which it damages most: the sum is at least that of any one
 /// direction.
 /// @param analysis  whose scene asks for fatigue
-std::vector<DutyPlace> judge_duty(const BodyAnalysis& analysis, const std::vector<BlockOnBody>& blocks,
+std::vector<DutyPlace> judge_duty(const Judged& analysis, const std::vector<BlockOnBody>& blocks,
                                   int n_threads);
 
 }  // namespace pipelines

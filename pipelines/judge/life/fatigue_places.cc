@@ -30,7 +30,7 @@ constexpr double places_per_period = 48, places_in_search = 24;
 
 }  // namespace
 
-std::vector<NodesOfFeature> nodes_by_feature(const BodyAnalysis& analysis) {
+std::vector<NodesOfFeature> nodes_by_feature(const Superposed& analysis) {
   const auto& nodes = analysis.responses.nodes;
   std::map<int, std::string> name_of;
   for (const auto& feature : analysis.mesh.features) name_of[feature.boundary_id] = feature.name;
@@ -67,9 +67,8 @@ Eigen::ArrayXd channel_sizes_Pa(const fem::UnitResponses& responses) {
   return sizes;
 }
 
-FatiguePlaces::FatiguePlaces(const BodyAnalysis& analysis, const SurfaceSlopes& slopes,
-                             const ChannelHistory& loads, const std::vector<double>& largest_Pa,
-                             const FatigueRules& rules)
+FatiguePlaces::FatiguePlaces(const Judged& analysis, const SurfaceSlopes& slopes, const ChannelHistory& loads,
+                             const std::vector<double>& largest_Pa, const FatigueRules& rules)
     : analysis_(analysis),
       slopes_(slopes),
       loads_(loads),

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/judge/figures/stress_gradient.h"
 #include "pipelines/judge/life/fatigue_rules.h"
 #include "pipelines/superpose/between_instants/amplitude_bound.h"
@@ -16,7 +16,7 @@ namespace pipelines {
 using NodesOfFeature = std::pair<std::string, std::vector<std::size_t>>;
 
 /// The nodes of each feature outside the exclusion distances; one on a seam belongs to both. By name.
-std::vector<NodesOfFeature> nodes_by_feature(const BodyAnalysis& analysis);
+std::vector<NodesOfFeature> nodes_by_feature(const Superposed& analysis);
 
 /// A node under one history of loads.
 struct FatigueNode {
@@ -59,7 +59,7 @@ public:
   /// @param loads      with the channels of the unit responses
   /// @param largest_Pa von Mises stress over the cycle at most, by node
   /// All outlive this.
-  FatiguePlaces(const BodyAnalysis& analysis, const SurfaceSlopes& slopes, const ChannelHistory& loads,
+  FatiguePlaces(const Judged& analysis, const SurfaceSlopes& slopes, const ChannelHistory& loads,
                 const std::vector<double>& largest_Pa, const FatigueRules& rules);
 
   /// The most used one of these nodes: they are looked at by falling bound of their use, between the
@@ -109,7 +109,7 @@ private:
   /// @param known  a utilisation: where this one is not above it, it may be without support
   FatigueNode judged(std::size_t node, const StressCourse& course, double slack, double known) const;
 
-  const BodyAnalysis& analysis_;
+  const Judged& analysis_;
   const SurfaceSlopes& slopes_;
   const ChannelHistory& loads_;
   const std::vector<double>& largest_Pa_;

@@ -90,7 +90,7 @@ DinTriple din_shoulder_gradient_1_m(double small_m, double large_m, double fille
 }
 
 std::vector<NominalFatigue> din_743_of_fillets(
-    const BodyAnalysis& analysis, const ChannelHistory& loads,
+    const Judged& analysis, const ChannelHistory& loads,
     const std::function<LocalAmplitude(const std::string&)>& local_amplitude) {
   std::vector<NominalFatigue> result;
   const ShaftShape* shaft = analysis.scene.shaft();

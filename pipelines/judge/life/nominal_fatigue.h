@@ -9,7 +9,7 @@
 
 #include "pipelines/base/fatigue/din_743.h"
 #include "pipelines/base/fatigue/fatigue_material.h"
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {
 
@@ -59,7 +59,7 @@ bool has_din_fillet(const meshes::Shaft& shaft);
 /// @param loads               with the channels of the analysis
 /// @param local_amplitude  of a fillet, by feature
 std::vector<NominalFatigue> din_743_of_fillets(
-    const BodyAnalysis& analysis, const ChannelHistory& loads,
+    const Judged& analysis, const ChannelHistory& loads,
     const std::function<LocalAmplitude(const std::string&)>& local_amplitude);
 
 }  // namespace pipelines

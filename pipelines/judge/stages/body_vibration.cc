@@ -4,7 +4,7 @@ namespace pipelines {
 namespace {
 
 /// @param name  of a feature or of a weld toe
-ShakenPlace shaken(const BodyAnalysis& analysis, const std::string& name, double value_Pa,
+ShakenPlace shaken(const Responded& analysis, const std::string& name, double value_Pa,
                    const StressPoint& point) {
   const auto unit_Pa = unit_stress_at(analysis.responses, point);
   return {name, value_Pa,
@@ -15,7 +15,7 @@ ShakenPlace shaken(const BodyAnalysis& analysis, const std::string& name, double
 }  // namespace
 
 void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
-                   BodyAnalysis& analysis, StageClock& clock) {
+                   Judged& analysis, StageClock& clock) {
   if (analysis.scene.natural_frequencies <= 0) return;
   analysis.vibration = clock.run("natural frequencies", [&] {
     std::vector<ShakenPlace> places{shaken(analysis, analysis.peak.feature, analysis.peak.value_Pa,
@@ -33,7 +33,7 @@ void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics:
   enter_vibration(analysis);
 }
 
-void enter_vibration(BodyAnalysis& analysis) {
+void enter_vibration(Judged& analysis) {
   if (!analysis.vibration) return;
   const auto enter = [](ErrorBudget& errors, const Vibration::Added& added, double value_Pa) {
     errors.set_model({"quasi_static",

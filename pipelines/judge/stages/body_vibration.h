@@ -1,7 +1,7 @@
 /// A body's natural frequencies beside its loads.
 #pragma once
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {
 
@@ -9,9 +9,9 @@ namespace pipelines {
 /// the budgets of the peak and of the largest hot-spot stress.
 /// @param history  of the load stage, that the analysis' loads were distributed from
 void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
-                   BodyAnalysis& analysis, StageClock& clock);
+                   Judged& analysis, StageClock& clock);
 
-/// The entries of the budgets alone, of BodyAnalysis::vibration; nothing without it.
-void enter_vibration(BodyAnalysis& analysis);
+/// The entries of the budgets alone, of Judged::vibration; nothing without it.
+void enter_vibration(Judged& analysis);
 
 }  // namespace pipelines

@@ -30,13 +30,13 @@ bool is_bore(const meshes::BodyMesh& mesh, const std::string& feature) {
   });
 }
 
-bool is_of_blocks(const BodyAnalysis& analysis) {
+bool is_of_blocks(const Responded& analysis) {
   return analysis.scene.shaft() != nullptr && !analysis.responses.nodes.shape().is_tetrahedron();
 }
 
 /// Relative error of a fillet's stress with so many cells on its quarter. Cells that were cut amid larger
 /// ones say less than an even mesh: four of them were up to 21 % off.
-double for_want_of_cells(const BodyAnalysis& analysis, int cells) {
+double for_want_of_cells(const Responded& analysis, int cells) {
   const double of_four = analysis.scene.refinements.empty() ? 0.15 : 0.25;
   return cells < 4 ? 0.5 : cells < 6 ? of_four : 0.04;
 }
@@ -54,13 +54,13 @@ double for_want_of_cells_to_border(double cells, bool of_tetrahedra) {
                        : of_one_block / std::pow(cells, order);
 }
 
-double geometry_share_at(const StressPoint& point, const BodyAnalysis& analysis) {
+double geometry_share_at(const StressPoint& point, const Responded& analysis) {
   const auto& nodes = analysis.responses.nodes;
   return geometry_share(analysis.geometry_error, nodes, point) +
          straight_edge_share(analysis.mesh.straight_edges, nodes, point);
 }
 
-double own_error_Pa(const BodyAnalysis& analysis, const StressPoint& point) {
+double own_error_Pa(const Superposed& analysis, const StressPoint& point) {
   const auto entry = discretisation_estimate(point, analysis.responses, analysis.loads.history,
                                              analysis.scene.material, analysis.places.excluded);
   return entry ? entry->value_Pa : 0;
@@ -73,7 +73,7 @@ constexpr double unasked_safety = 2;
 /// Of tetrahedra: every place that, as far as single cells tell, may exceed the largest value is looked at by
 /// a submodel, as long as there is time. Beside a spring or a clamp, which holds the submodel's displacement,
 /// single cells have the word.
-void ask_submodels(const BodyAnalysis& analysis, double largest_Pa, double seconds,
+void ask_submodels(const Superposed& analysis, double largest_Pa, double seconds,
                    std::vector<PlaceStress>& places) {
   const auto& responses = analysis.responses;
   if (seconds == 0 || responses.nodes.n_cells() == 0 || !responses.nodes.shape().is_tetrahedron()) return;
@@ -108,7 +108,7 @@ void ask_submodels(const BodyAnalysis& analysis, double largest_Pa, double secon
 /// What single cells tell of the error of a stress at a node of a feature [Pa], and what few cells on its
 /// fillet's quarter, or through the wall of its bore, leave open; none where no cells were solved.
 /// @param instant  column of `loads`
-std::optional<double> error_by_cells_Pa(const BodyAnalysis& analysis, const std::string& feature,
+std::optional<double> error_by_cells_Pa(const Superposed& analysis, const std::string& feature,
                                         std::size_t node, const ChannelHistory& loads, std::int32_t instant) {
   const StressPoint point{{{node, 1.0}}, instant};
   const auto entry = discretisation_estimate(point, analysis.responses, loads, analysis.scene.material,
@@ -122,7 +122,7 @@ std::optional<double> error_by_cells_Pa(const BodyAnalysis& analysis, const std:
 }
 
 /// The same, relative, at most 1; 0 where nothing is stressed.
-double own_share(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
+double own_share(const Superposed& analysis, const std::string& feature, std::size_t node,
                  const ChannelHistory& loads, std::int32_t instant) {
   const auto unit = unit_stress_at(analysis.responses, {{{node, 1.0}}, instant});
   const double value_Pa = von_mises_of(unit, loads.values.col(instant));
@@ -132,7 +132,7 @@ double own_share(const BodyAnalysis& analysis, const std::string& feature, std::
 
 /// What harmonics of pressures that were left out may bring to half a change of the loads [Pa]: of each port
 /// what they may bring to the stress, by the share of its loads that change.
-double tail_of_change_Pa(const BodyAnalysis& analysis, const std::vector<std::array<double, 6>>& unit,
+double tail_of_change_Pa(const Responded& analysis, const std::vector<std::array<double, 6>>& unit,
                          const Eigen::ArrayXXd& half_change) {
   double sum_Pa = 0;
   for (const auto& [port, pressure] : solved_pressures(analysis.loads))
@@ -142,13 +142,13 @@ double tail_of_change_Pa(const BodyAnalysis& analysis, const std::vector<std::ar
   return sum_Pa;
 }
 
-const PlaceStress* judged_place(const BodyAnalysis& analysis, const std::string& feature) {
+const PlaceStress* judged_place(const Judged& analysis, const std::string& feature) {
   for (const auto& place : analysis.place_stresses)
     if (place.feature == feature) return &place;
   return nullptr;
 }
 
-std::vector<PlaceStress> weld_toes(const BodyAnalysis& analysis) {
+std::vector<PlaceStress> weld_toes(const Judged& analysis) {
   std::vector<PlaceStress> places;
   for (const auto& spot : analysis.hot_spots) {
     const double own_Pa = own_error_Pa(analysis, stress_point(spot));
@@ -161,8 +161,7 @@ std::vector<PlaceStress> weld_toes(const BodyAnalysis& analysis) {
   return places;
 }
 
-std::vector<PlaceStress> without_weld_toes(const BodyAnalysis& analysis,
-                                           const std::vector<PlaceStress>& judged) {
+std::vector<PlaceStress> without_weld_toes(const Judged& analysis, const std::vector<PlaceStress>& judged) {
   std::vector<PlaceStress> others;
   for (const auto& place : judged)
     if (std::none_of(analysis.hot_spots.begin(), analysis.hot_spots.end(),
@@ -183,7 +182,7 @@ void enter(ErrorBudget& errors, const std::vector<PlaceStress>& judged, const st
 }
 
 /// The largest angle that a face at the node takes of the fillet's quarter circle; 0: no face of it is there.
-double arc_at(const BodyAnalysis& analysis, const meshes::TorusChart& torus, std::size_t node) {
+double arc_at(const Responded& analysis, const meshes::TorusChart& torus, std::size_t node) {
   const auto& nodes = analysis.responses.nodes;
   double largest_rad = 0;
   for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
@@ -204,7 +203,7 @@ double arc_at(const BodyAnalysis& analysis, const meshes::TorusChart& torus, std
 
 }  // namespace
 
-int cells_on_quarter(const BodyAnalysis& analysis, const PlaceStress& place) {
+int cells_on_quarter(const Responded& analysis, const PlaceStress& place) {
   const auto names = fillets_of(analysis.scene);
   const auto fillet = std::find(names.begin(), names.end(), place.feature);
   if (fillet == names.end()) return 0;
@@ -217,7 +216,7 @@ int cells_on_quarter(const BodyAnalysis& analysis, const PlaceStress& place) {
   return analysis.scene.shaft()->mesh.cells_at(int(fillet - names.begin()));
 }
 
-std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, double submodels_s) {
+std::vector<PlaceStress> places_of_one_mesh(const Judged& analysis, double submodels_s) {
   const auto& maximum = analysis.envelope.von_mises;
   auto places =
       largest_by_feature(analysis.responses.nodes, maximum.value_Pa, analysis.mesh.features, analysis.places);
@@ -252,8 +251,7 @@ std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis, double
   return places;
 }
 
-void take_place_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& judged,
-                       const std::string& method) {
+void take_place_errors(Judged& analysis, const std::vector<PlaceStress>& judged, const std::string& method) {
   if (judged.empty()) return;
   auto& errors = errors_of_governing(analysis);
   enter(errors, judged, method);
@@ -264,7 +262,7 @@ void take_place_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& j
   take_zone_errors(analysis);
 }
 
-double error_share_at(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
+double error_share_at(const Judged& analysis, const std::string& feature, std::size_t node,
                       const ChannelHistory& loads, std::int32_t instant) {
   const auto* place = judged_place(analysis, feature);
   if (place == nullptr) return std::numeric_limits<double>::infinity();
@@ -279,13 +277,13 @@ double error_share_at(const BodyAnalysis& analysis, const std::string& feature, 
                   here > 0 ? std::min(there, std::pow(judged / here, weight_of_search) * there) : there);
 }
 
-double error_share_at(const BodyAnalysis& analysis, const std::string& feature, std::size_t node) {
+double error_share_at(const Judged& analysis, const std::string& feature, std::size_t node) {
   if (judged_place(analysis, feature) == nullptr) return std::numeric_limits<double>::infinity();
   return error_share_at(analysis, feature, node, analysis.loads.history,
                         analysis.envelope.von_mises.instant[node]);
 }
 
-double error_share_of_change(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
+double error_share_of_change(const Judged& analysis, const std::string& feature, std::size_t node,
                              const BodyLoads& change) {
   const double judged = error_share_at(analysis, feature, node);
   if (!std::isfinite(judged)) return judged;
@@ -320,7 +318,7 @@ double error_share_of_change(const BodyAnalysis& analysis, const std::string& fe
   return share + tail_of_change_Pa(analysis, unit, change.history.values) / value_Pa;
 }
 
-double whole_error_share_of_change(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
+double whole_error_share_of_change(const Judged& analysis, const std::string& feature, std::size_t node,
                                    const BodyLoads& change, double unresolved_share) {
   const double own = error_share_of_change(analysis, feature, node, change),
                stated = stated_error_share(analysis, feature);
@@ -333,12 +331,12 @@ double whole_error_share_of_change(const BodyAnalysis& analysis, const std::stri
   return std::max(own + unresolved_share + patches + model_error_share(analysis, feature, node), stated);
 }
 
-ErrorBudget errors_at(const StressPoint& point, const BodyAnalysis& analysis) {
+ErrorBudget errors_at(const StressPoint& point, const Superposed& analysis) {
   return self_estimate(point, analysis.responses, analysis.loads, analysis.scene.material,
                        geometry_share_at(point, analysis), analysis.places.excluded);
 }
 
-void take_zone_errors(BodyAnalysis& analysis) {
+void take_zone_errors(Judged& analysis) {
   auto& zones = analysis.zones.zones;
   for (std::size_t i = 0; i < zones.size(); ++i) {
     auto& zone = zones[i];

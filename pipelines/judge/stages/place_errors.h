@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/judge/estimates/place_stress.h"
 
 namespace pipelines {
@@ -27,15 +27,14 @@ constexpr double share_worth_a_look = 0.4;
 /// @param submodels_s  of tetrahedra: seconds in which submodels may tell the errors of places that may lead,
 ///                     those first that may be largest; 0: none. What is left then has twice the error that
 ///                     cells around tell.
-std::vector<PlaceStress> places_of_one_mesh(const BodyAnalysis& analysis,
+std::vector<PlaceStress> places_of_one_mesh(const Judged& analysis,
                                             double submodels_s = std::numeric_limits<double>::infinity());
 
 /// Enters what is known of the places into the error budget of the governing stress: its own error as the
 /// entry `discretisation`, and as `other_places` by how much another place with its error exceeds it with its
 /// own; likewise into that of the peak, where a weld toe governs, from the places that are no weld toes.
 /// Keeps the places, and gives the zones their errors.
-void take_place_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& judged,
-                       const std::string& method);
+void take_place_errors(Judged& analysis, const std::vector<PlaceStress>& judged, const std::string& method);
 
 /// What is known of the stress at a node of a feature that is judged, as a share of it: at the node of the
 /// place's maximum what the search knows. Elsewhere between what the mesh tells of it by itself, and as many
@@ -48,10 +47,10 @@ void take_place_errors(BodyAnalysis& analysis, const std::vector<PlaceStress>& j
 /// @param loads    of the stress, with the channels of the analysis' responses
 /// @param instant  column of `loads`
 /// @return infinite if the feature is not judged
-double error_share_at(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
+double error_share_at(const Judged& analysis, const std::string& feature, std::size_t node,
                       const ChannelHistory& loads, std::int32_t instant);
 /// Of the largest stress there over the cycle.
-double error_share_at(const BodyAnalysis& analysis, const std::string& feature, std::size_t node);
+double error_share_at(const Judged& analysis, const std::string& feature, std::size_t node);
 
 /// The numerical error of half a change of the stress, of an amplitude, at a node of a feature that is
 /// judged, as a share of it, without that of time sampling. The part that has the direction of the largest
@@ -60,7 +59,7 @@ double error_share_at(const BodyAnalysis& analysis, const std::string& feature, 
 /// has what single cells tell of it.
 /// @param change  half of the change, as loads of one instant
 /// @return infinite if the feature is not judged
-double error_share_of_change(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
+double error_share_of_change(const Judged& analysis, const std::string& feature, std::size_t node,
                              const BodyLoads& change);
 
 /// The whole error of an amplitude, as a share of it: error_share_of_change, what the instants leave
@@ -69,18 +68,18 @@ double error_share_of_change(const BodyAnalysis& analysis, const std::string& fe
 /// than what is stated of that.
 /// @param unresolved_share  by how much the amplitude may be larger than at the instants
 /// @return infinite if the feature is neither judged nor has the peak
-double whole_error_share_of_change(const BodyAnalysis& analysis, const std::string& feature, std::size_t node,
+double whole_error_share_of_change(const Judged& analysis, const std::string& feature, std::size_t node,
                                    const BodyLoads& change, double unresolved_share);
 
 /// What the mesh and the loads tell of the error at a point (self_estimate).
-ErrorBudget errors_at(const StressPoint& point, const BodyAnalysis& analysis);
+ErrorBudget errors_at(const StressPoint& point, const Superposed& analysis);
 
 /// A zone at a place that is judged has the discretisation error of its peak's node there (error_share_at);
 /// the first n_zones_shown have their other numerical errors too.
-void take_zone_errors(BodyAnalysis& analysis);
+void take_zone_errors(Judged& analysis);
 
 /// Cells on the quarter of a fillet, on a locally refined mesh the fewest beside the place's maximum; 0 for
 /// places that are no fillets of a shaft of blocks.
-int cells_on_quarter(const BodyAnalysis& analysis, const PlaceStress& place);
+int cells_on_quarter(const Responded& analysis, const PlaceStress& place);
 
 }  // namespace pipelines

@@ -39,8 +39,7 @@ std::optional<std::size_t> section_beside(const std::vector<SectionResult>& sect
 
 /// Torque of the stress field by which it changes from one side of a port to the other, under values of the
 /// channels.
-ArrayXd torque_by_stress_Nm(const BodyAnalysis& analysis, const meshes::Port& port,
-                            const Eigen::ArrayXXd& values) {
+ArrayXd torque_by_stress_Nm(const Judged& analysis, const meshes::Port& port, const Eigen::ArrayXXd& values) {
   const auto& responses = analysis.responses;
   const auto& sections = analysis.diagrams->sections;
   const auto n_channels = responses.channels.size();
@@ -75,7 +74,7 @@ const SectionResult& nearest_section(const std::vector<SectionResult>& sections,
   });
 }
 
-RingTorsion ring_torsion(const BodyAnalysis& analysis, std::size_t index, const BetweenInstants& between) {
+RingTorsion ring_torsion(const Judged& analysis, std::size_t index, const BetweenInstants& between) {
   const auto& diagrams = *analysis.diagrams;
   RingTorsion result;
   result.ring = diagrams.rings[index];
@@ -113,7 +112,7 @@ RingTorsion ring_torsion(const BodyAnalysis& analysis, std::size_t index, const 
 }
 
 /// Of the rings that are nearer to the middle of this port than to that of any other, the one stressed most.
-std::optional<RingTorsion> largest_near(const BodyAnalysis& analysis, const std::vector<double>& middles_m,
+std::optional<RingTorsion> largest_near(const Judged& analysis, const std::vector<double>& middles_m,
                                         std::size_t port, const BetweenInstants& between) {
   const auto& rings = analysis.diagrams->rings;
   const auto nearest = [&](double z) {
@@ -131,7 +130,7 @@ std::optional<RingTorsion> largest_near(const BodyAnalysis& analysis, const std:
 }
 
 /// Nodes of a feature's faces at a ring's height.
-std::vector<std::size_t> nodes_at(const BodyAnalysis& analysis, const TorsionRing& ring) {
+std::vector<std::size_t> nodes_at(const Responded& analysis, const TorsionRing& ring) {
   const auto& nodes = analysis.responses.nodes;
   const double near_m = same_place * (analysis.scene.shaft()->geometry.segments.back().end_m -
                                       analysis.scene.shaft()->geometry.segments.front().begin_m);
@@ -158,7 +157,7 @@ const std::array<double, 2>* shear_of(const fem::UnitResponses& responses, const
 }
 
 /// What the largest stress of the ring between the instants may exceed max_Pa by.
-double sampling_error_of_Pa(const BodyAnalysis& analysis, const TorsionRing& ring) {
+double sampling_error_of_Pa(const Responded& analysis, const TorsionRing& ring) {
   const auto* shear_Pa = shear_of(analysis.responses, ring);
   if (shear_Pa == nullptr) return 0;
   std::vector<std::array<double, 6>> unit;
@@ -171,7 +170,7 @@ double sampling_error_of_Pa(const BodyAnalysis& analysis, const TorsionRing& rin
 }
 
 /// At the node of the ring's height that twist stresses most.
-std::optional<double> error_of_twist_Pa(const BodyAnalysis& analysis, const TorsionRing& ring) {
+std::optional<double> error_of_twist_Pa(const Superposed& analysis, const TorsionRing& ring) {
   constexpr double least_share = 0.05;  // of a channel's stress: all shear by torsion has 0.58, bending 0.00
   const auto& responses = analysis.responses;
   const auto n_channels = responses.channels.size();
@@ -200,13 +199,13 @@ std::optional<double> error_of_twist_Pa(const BodyAnalysis& analysis, const Tors
 }
 
 /// What is left of bending in a mean over a ring: a shaft without torque had 2.5e-9 of its largest stress.
-double rounding_Pa(const BodyAnalysis& analysis) {
+double rounding_Pa(const Judged& analysis) {
   constexpr double share = 2.5e-8;
   return share * analysis.peak.value_Pa;
 }
 
 /// For want of a finer mesh.
-double mesh_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring) {
+double mesh_error_Pa(const Judged& analysis, const TorsionRing& ring) {
   const auto& other = analysis.diagrams->by_harmonics;
   const double infinite = std::numeric_limits<double>::infinity();
   if (analysis.method == Method::axisymmetric) return other ? other->error_Pa : infinite;
@@ -224,15 +223,15 @@ double mesh_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring) {
 
 }  // namespace
 
-double ring_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring) {
+double ring_error_Pa(const Judged& analysis, const TorsionRing& ring) {
   return mesh_error_Pa(analysis, ring) + sampling_error_of_Pa(analysis, ring) + rounding_Pa(analysis);
 }
 
-bool is_rounding(const BodyAnalysis& analysis, const TorsionRing& ring) {
+bool is_rounding(const Judged& analysis, const TorsionRing& ring) {
   return ring.max_Pa <= rounding_Pa(analysis);
 }
 
-void take_torsion_by_harmonics(const BodyAnalysis& before, BodyAnalysis& after) {
+void take_torsion_by_harmonics(const Judged& before, Judged& after) {
   if (!before.diagrams || !before.diagrams->by_harmonics || !after.diagrams) return;
   const auto *ring_before = largest_torsion_ring(*before.diagrams),
              *ring_after = largest_torsion_ring(*after.diagrams);
@@ -271,7 +270,7 @@ ArrayXd signed_ring_stress_Pa(const Eigen::Array2Xd& shear_Pa) {
   return (shear_Pa.colwise() * direction).colwise().sum().transpose();
 }
 
-std::vector<ElementTorsion> element_torsion(const BodyAnalysis& analysis, const kinetics::LoadHistory& loads,
+std::vector<ElementTorsion> element_torsion(const Judged& analysis, const kinetics::LoadHistory& loads,
                                             const std::vector<kinetics::CourseFigures>& course) {
   std::vector<ElementTorsion> elements;
   const auto* shaft = analysis.scene.shaft();

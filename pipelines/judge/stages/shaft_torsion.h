@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kinetics/train_crests.h"
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {
 
@@ -51,7 +51,7 @@ struct ElementTorsion {
 /// Of every element that joins the shaft; none of other bodies, and where no section diagrams are.
 /// @param loads   the load stage that the analysis is of
 /// @param course  what the machine knows of its quantities between the instants; empty: nothing
-std::vector<ElementTorsion> element_torsion(const BodyAnalysis& analysis, const kinetics::LoadHistory& loads,
+std::vector<ElementTorsion> element_torsion(const Judged& analysis, const kinetics::LoadHistory& loads,
                                             const std::vector<kinetics::CourseFigures>& course = {});
 
 /// Course of a ring's torsional stress along the direction that it has where it is largest: positive there.
@@ -68,13 +68,13 @@ Eigen::ArrayXd signed_ring_stress_Pa(const Eigen::Array2Xd& shear_Pa);
 /// Of harmonics, their own error; infinite where nothing is known. To these comes what the ring's largest
 /// stress between the instants may exceed max_Pa by (sampling_error_Pa), and rounding.
 /// @param ring  largest_torsion_ring
-double ring_error_Pa(const BodyAnalysis& analysis, const TorsionRing& ring);
+double ring_error_Pa(const Judged& analysis, const TorsionRing& ring);
 
 /// Whether the ring's stress is what rounding leaves where nothing twists the shaft.
-bool is_rounding(const BodyAnalysis& analysis, const TorsionRing& ring);
+bool is_rounding(const Judged& analysis, const TorsionRing& ring);
 
 /// Diagrams::by_harmonics of an analysis for the same mesh under other loads: with the same relative
 /// difference and error, as long as torsional stress is largest on the same feature.
-void take_torsion_by_harmonics(const BodyAnalysis& before, BodyAnalysis& after);
+void take_torsion_by_harmonics(const Judged& before, Judged& after);
 
 }  // namespace pipelines

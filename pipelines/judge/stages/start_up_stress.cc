@@ -16,7 +16,7 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-void add_peak(const BodyAnalysis& analysis, const BodyLoads& loads, int n_threads, StartUpStress& result) {
+void add_peak(const Judged& analysis, const BodyLoads& loads, int n_threads, StartUpStress& result) {
   const auto envelope = pipelines::envelope(loads.history, analysis.responses, n_threads);
   require_finite(analysis.scene.name, envelope);
   const auto node = peak_node(envelope.von_mises.value_Pa, analysis.places);
@@ -33,7 +33,7 @@ void add_peak(const BodyAnalysis& analysis, const BodyLoads& loads, int n_thread
           .effects;
 }
 
-std::optional<StartUpRing> largest_ring(const BodyAnalysis& analysis, const BodyLoads& loads,
+std::optional<StartUpRing> largest_ring(const Judged& analysis, const BodyLoads& loads,
                                         const ArrayXd& time_s) {
   if (!analysis.diagrams) return std::nullopt;
   const auto rings = torsion_rings(loads, analysis.responses, analysis.mesh);
@@ -54,7 +54,7 @@ double StartUpFigure::factor() const {
   return steady > 0 ? std::abs(largest) / steady : 0;
 }
 
-StartUpStress start_up_stress(const BodyAnalysis& analysis, const StartUp& start,
+StartUpStress start_up_stress(const Judged& analysis, const StartUp& start,
                               const kinetics::LoadHistory& steady, int n_threads) {
   const auto& loads = *std::find_if(start.bodies.begin(), start.bodies.end(), [&](const auto& body) {
     return body.history.body == analysis.scene.name;

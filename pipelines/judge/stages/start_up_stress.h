@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/loads/stage/start_up_loads.h"
 
 namespace pipelines {
@@ -52,7 +52,7 @@ struct StartUpStress {
 
 /// @param analysis  of the steady run
 /// @param steady    load stage of the steady run
-StartUpStress start_up_stress(const BodyAnalysis& analysis, const StartUp& start,
+StartUpStress start_up_stress(const Judged& analysis, const StartUp& start,
                               const kinetics::LoadHistory& steady, int n_threads);
 
 }  // namespace pipelines

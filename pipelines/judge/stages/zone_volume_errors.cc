@@ -23,7 +23,7 @@ constexpr double safety_between_nodes = 1.5;
 
 /// Shares of error of the features that are judged. Far below the largest stress a place's error is the
 /// stress itself, and tells nothing.
-std::map<std::int32_t, double> shares_of_features(const BodyAnalysis& analysis) {
+std::map<std::int32_t, double> shares_of_features(const Judged& analysis) {
   std::map<std::int32_t, double> shares;
   const auto& names = analysis.places.feature_names;
   for (const auto& place : analysis.place_stresses) {
@@ -35,7 +35,7 @@ std::map<std::int32_t, double> shares_of_features(const BodyAnalysis& analysis) 
 }
 
 /// At every node the largest share of those that its cells have.
-std::vector<double> shares_of_nodes(const BodyAnalysis& analysis) {
+std::vector<double> shares_of_nodes(const Judged& analysis) {
   const auto& nodes = analysis.responses.nodes;
   const auto of_feature = shares_of_features(analysis);
   std::vector<double> shares(nodes.n, 0.0);
@@ -52,7 +52,7 @@ std::vector<double> shares_of_nodes(const BodyAnalysis& analysis) {
   return shares;
 }
 
-std::vector<double> doubts_of_cells_Pa(const BodyAnalysis& analysis) {
+std::vector<double> doubts_of_cells_Pa(const Judged& analysis) {
   const auto& responses = analysis.responses;
   const auto& maximum = analysis.envelope.von_mises;
   const auto& loads = analysis.loads.history.values;
@@ -71,7 +71,7 @@ double share_of_the_rest(const Peak& peak) {
 }
 
 /// What the cells of each zone measure otherwise where the stress runs straight between nodes, or curved.
-std::vector<double> between_nodes_m3(const BodyAnalysis& analysis) {
+std::vector<double> between_nodes_m3(const Judged& analysis) {
   const auto& nodes = analysis.responses.nodes;
   const auto& value_Pa = analysis.envelope.von_mises.value_Pa;
   const auto& zones = analysis.zones;
@@ -108,7 +108,7 @@ bool are_neighbours(const fem::Nodes& nodes, std::size_t a, std::size_t b) {
 /// Volumes of the regions above the zones' level that hold these nodes, joined only where neighbouring nodes
 /// are: zones join across a whole cell, and cells may be wider than what lies between two zones. A cell of
 /// several regions is shared out by their nodes.
-std::vector<double> least_volumes_m3(const BodyAnalysis& analysis, const std::vector<double>& value_Pa,
+std::vector<double> least_volumes_m3(const Judged& analysis, const std::vector<double>& value_Pa,
                                      const std::vector<std::size_t>& held) {
   const auto& nodes = analysis.responses.nodes;
   const double level_Pa = analysis.zones.level_Pa;
@@ -138,7 +138,7 @@ std::vector<double> least_volumes_m3(const BodyAnalysis& analysis, const std::ve
 
 }  // namespace
 
-std::vector<double> envelope_errors_Pa(const BodyAnalysis& analysis) {
+std::vector<double> envelope_errors_Pa(const Judged& analysis) {
   const auto& responses = analysis.responses;
   const auto& value_Pa = analysis.envelope.von_mises.value_Pa;
   std::vector<double> errors(responses.nodes.n, 0.0);
@@ -164,7 +164,7 @@ std::vector<double> envelope_errors_Pa(const BodyAnalysis& analysis) {
   return errors;
 }
 
-void estimate_volume_errors(BodyAnalysis& analysis) {
+void estimate_volume_errors(Judged& analysis) {
   if (analysis.method == Method::beam || analysis.zones.zones.empty()) return;
   const auto& nodes = analysis.responses.nodes;
   auto high_Pa = analysis.envelope.von_mises.value_Pa, low_Pa = high_Pa;

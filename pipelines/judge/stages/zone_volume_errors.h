@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {
 
@@ -15,7 +15,7 @@ namespace pipelines {
 ///                   node, have the largest share of the zones
 ///   the rest        of the numerical errors of the body's peak, as a share of the stress
 ///   the model       of harmonics: what they take eccentric segments for
-std::vector<double> envelope_errors_Pa(const BodyAnalysis& analysis);
+std::vector<double> envelope_errors_Pa(const Judged& analysis);
 
 /// Gives each zone the numerical error of its volume: the level stays as it is printed, and the stress is
 /// moved up and down by envelope_errors_Pa. The connected regions above the level that hold the zone's peak
@@ -24,6 +24,6 @@ std::vector<double> envelope_errors_Pa(const BodyAnalysis& analysis);
 /// where zones join across a whole cell. To this come one and a half times the differences of
 /// the zone's cells between a stress that runs straight between nodes, and one that is curved
 /// (fem/stress/region_volume.h). A beam's zones have no volume, and no error.
-void estimate_volume_errors(BodyAnalysis& analysis);
+void estimate_volume_errors(Judged& analysis);
 
 }  // namespace pipelines

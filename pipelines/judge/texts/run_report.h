@@ -5,7 +5,7 @@
 
 #include "kinetics/values/load_history.h"
 #include "pipelines/base/common/stage_clock.h"
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/loads/channels/bearings.h"
 #include "pipelines/scene/whole/scene.h"
 
@@ -18,7 +18,7 @@ struct TorsionReport;
 struct RunReport {
   const Scene& scene;
   const kinetics::LoadHistory& loads;
-  const std::vector<BodyAnalysis>& bodies;
+  const std::vector<Judged>& bodies;
   const std::vector<MassFigure>& masses;  ///< of the load stage beside those of the meshes
   const std::vector<StageCost>& costs;
   std::vector<BearingResult> bearings = {};

@@ -63,7 +63,7 @@ std::string largest_shares(std::vector<NamedShare> shares) {
   return text;
 }
 
-ZoneFigures figures_of(const BodyAnalysis& analysis, const Zone& zone) {
+ZoneFigures figures_of(const Judged& analysis, const Zone& zone) {
   return {zone.feature,   to_string(zone.place),
           zone.peak_Pa,   error_Pa(analysis, zone).value_or(std::numeric_limits<double>::quiet_NaN()),
           zone.safety,    zone.peak_m,

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {
 
@@ -35,7 +35,7 @@ struct ZoneFigures {
   double volume_m3 = 0;
   std::int64_t n_nodes = 0;
 };
-ZoneFigures figures_of(const BodyAnalysis& analysis, const Zone& zone);
+ZoneFigures figures_of(const Judged& analysis, const Zone& zone);
 
 /// A zone's volume and what it may be off by, in mm3 with the digits that are known.
 struct VolumeText {

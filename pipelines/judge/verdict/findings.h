@@ -6,16 +6,16 @@
 namespace pipelines {
 
 /// Largest stress against the yield strength, of running, of all operating blocks, and of a start.
-Finding judge_yield(const RunReport& report, const BodyAnalysis& analysis);
+Finding judge_yield(const RunReport& report, const Judged& analysis);
 
 /// Fatigue of the surface; none where the scene has switched it off.
-std::optional<Finding> judge_surface(const RunReport& report, const BodyAnalysis& analysis);
+std::optional<Finding> judge_surface(const RunReport& report, const Judged& analysis);
 
 /// Fatigue of weld toes; none of bodies without, or where the scene has switched it off.
-std::optional<Finding> judge_welds(const RunReport& report, const BodyAnalysis& analysis);
+std::optional<Finding> judge_welds(const RunReport& report, const Judged& analysis);
 
 /// What resonance adds to the body's stress.
-Finding judge_resonance(const RunReport& report, const BodyAnalysis& analysis);
+Finding judge_resonance(const RunReport& report, const Judged& analysis);
 
 /// One finding for each bearing of the scene; one that says what is missing where bodies have bearings of
 /// which the scene gives no ratings.
@@ -33,6 +33,6 @@ bool is_worse(const Finding& a, const Finding& b);
 
 /// What settles a figure whose error leaves it open.
 /// @param error_share  whole error of the stress that the figure follows from; infinite: not known
-std::string remedy_of_open(const BodyAnalysis& analysis, double error_share);
+std::string remedy_of_open(const Judged& analysis, double error_share);
 
 }  // namespace pipelines

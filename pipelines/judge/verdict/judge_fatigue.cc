@@ -33,7 +33,7 @@ std::string brought_by(const std::vector<std::string>& effects, const std::vecto
   return largest_shares(group_shares(effects, shares));
 }
 
-std::vector<Used> of_running(const BodyAnalysis& analysis) {
+std::vector<Used> of_running(const Judged& analysis) {
   std::vector<Used> all;
   const auto& effects = analysis.loads.history.effects;
   for (const auto& place : analysis.fatigue->places)
@@ -59,7 +59,7 @@ std::vector<Used> over_blocks(const DutyResult& duty, const std::string& body,
   return all;
 }
 
-std::vector<Used> all_used(const RunReport& report, const BodyAnalysis& analysis) {
+std::vector<Used> all_used(const RunReport& report, const Judged& analysis) {
   const auto& body = analysis.scene.name;
   if (report.duty != nullptr)
     if (const auto found = report.duty->places.find(body); found != report.duty->places.end())
@@ -82,7 +82,7 @@ std::string remedy_of_life(const Used& used, double least) {
   return text;
 }
 
-Finding finding_of(const BodyAnalysis& analysis, const Used& used) {
+Finding finding_of(const Judged& analysis, const Used& used) {
   Finding finding{used.is_weld ? "welds" : "fatigue",
                   judgement_of(used),
                   used.place,
@@ -114,7 +114,7 @@ Finding finding_of(const BodyAnalysis& analysis, const Used& used) {
 
 /// A strength of which nobody says that it is the part's at its size may be that of the standard's sample,
 /// and less by FKM's size factor: the margin has to hold with that too.
-void weigh_size(const BodyAnalysis& analysis, Finding& finding) {
+void weigh_size(const Judged& analysis, Finding& finding) {
   constexpr double same_strength = 0.995;
   const auto& sizes = analysis.fatigue->at_size;  // the least factor last
   if (sizes.empty() || sizes.back().size.tensile_factor > same_strength || !finding.margin) return;
@@ -130,7 +130,7 @@ void weigh_size(const BodyAnalysis& analysis, Finding& finding) {
 }
 
 /// @param welds  toes alone, or all but these
-std::optional<Finding> worst_of(const RunReport& report, const BodyAnalysis& analysis, bool welds) {
+std::optional<Finding> worst_of(const RunReport& report, const Judged& analysis, bool welds) {
   std::optional<Finding> worst;
   for (const auto& used : all_used(report, analysis)) {
     if (used.is_weld != welds) continue;
@@ -141,7 +141,7 @@ std::optional<Finding> worst_of(const RunReport& report, const BodyAnalysis& ana
   return worst;
 }
 
-std::optional<Finding> not_judged(const BodyAnalysis& analysis, const char* criterion) {
+std::optional<Finding> not_judged(const Responded& analysis, const char* criterion) {
   if (analysis.scene.fatigue_off) return std::nullopt;
   const auto& why = analysis.scene.fatigue_missing;
   return Finding{criterion,    Judgement::not_judged, "", "not known", why.empty() ? "no rule holds" : why,
@@ -150,7 +150,7 @@ std::optional<Finding> not_judged(const BodyAnalysis& analysis, const char* crit
 
 }  // namespace
 
-std::optional<Finding> judge_surface(const RunReport& report, const BodyAnalysis& analysis) {
+std::optional<Finding> judge_surface(const RunReport& report, const Judged& analysis) {
   if (!analysis.fatigue) return not_judged(analysis, "fatigue");
   auto worst = worst_of(report, analysis, false);
   if (!worst) return worst;
@@ -162,7 +162,7 @@ std::optional<Finding> judge_surface(const RunReport& report, const BodyAnalysis
   return worst;
 }
 
-std::optional<Finding> judge_welds(const RunReport& report, const BodyAnalysis& analysis) {
+std::optional<Finding> judge_welds(const RunReport& report, const Judged& analysis) {
   if (analysis.hot_spots.empty()) return std::nullopt;
   return analysis.fatigue ? worst_of(report, analysis, true) : not_judged(analysis, "welds");
 }

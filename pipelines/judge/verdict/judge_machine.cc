@@ -70,7 +70,7 @@ std::optional<Finding> judge_static_load(const RunReport& report, std::size_t i)
   return finding;
 }
 
-std::vector<std::string> bearing_seats(const BodyAnalysis& analysis) {
+std::vector<std::string> bearing_seats(const Responded& analysis) {
   std::vector<std::string> seats;
   for (const auto& port : analysis.mesh.ports)
     if (port.name.find("bearing") != std::string::npos) seats.push_back(port.name);

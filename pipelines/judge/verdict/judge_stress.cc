@@ -21,14 +21,14 @@ struct Stressed {
 };
 
 /// Of running; without operating blocks, or with blocks that have other places.
-Stressed in_running(const BodyAnalysis& analysis) {
+Stressed in_running(const Judged& analysis) {
   const auto stress = governing_stress(analysis);
   const double share = stress.value_Pa > 0 ? stress.errors.total_Pa() / stress.value_Pa : 0;
   return {stress.value_Pa, share, stress.place, ""};
 }
 
 /// Blocks are known as well as running is, but for what lies between their instants.
-std::vector<Stressed> in_blocks(const RunReport& report, const BodyAnalysis& analysis) {
+std::vector<Stressed> in_blocks(const RunReport& report, const Judged& analysis) {
   std::vector<Stressed> all;
   if (report.duty == nullptr) return all;
   const double error_share = in_running(analysis).error_share;
@@ -40,7 +40,7 @@ std::vector<Stressed> in_blocks(const RunReport& report, const BodyAnalysis& ana
   return all;
 }
 
-std::vector<Stressed> all_stresses(const RunReport& report, const BodyAnalysis& analysis) {
+std::vector<Stressed> all_stresses(const RunReport& report, const Judged& analysis) {
   std::vector<Stressed> all{in_running(analysis)};
   for (auto& stress : in_blocks(report, analysis)) all.push_back(std::move(stress));
   // A start is known no better than running: what patterns of pressure leave open is the same.
@@ -57,7 +57,7 @@ std::string remedy_of_yield(double yield_Pa, double least_margin) {
       1 / least_margin, yield_Pa / least_margin / 1e6);
 }
 
-Finding finding_of(const RunReport& report, const BodyAnalysis& analysis, const Stressed& stress) {
+Finding finding_of(const RunReport& report, const Judged& analysis, const Stressed& stress) {
   Finding finding{"yield", Judgement::ok, stress.place + stress.when, "", "", std::nullopt, std::nullopt};
   const double wanted = report.scene.limits.yield_safety, yield_Pa = analysis.scene.yield_strength_Pa;
   if (!(stress.value_Pa > 0)) {
@@ -81,7 +81,7 @@ Finding finding_of(const RunReport& report, const BodyAnalysis& analysis, const 
 
 }  // namespace
 
-std::string remedy_of_open(const BodyAnalysis& analysis, double error_share) {
+std::string remedy_of_open(const Judged& analysis, double error_share) {
   constexpr double same = 1.5;
   const auto running = in_running(analysis);
   const auto begin = std::isfinite(error_share)
@@ -93,7 +93,7 @@ std::string remedy_of_open(const BodyAnalysis& analysis, double error_share) {
   return begin + remedy_of_error(governing_stress(analysis).errors, analysis.search);
 }
 
-Finding judge_yield(const RunReport& report, const BodyAnalysis& analysis) {
+Finding judge_yield(const RunReport& report, const Judged& analysis) {
   Finding worst;
   for (const auto& stress : all_stresses(report, analysis)) {
     auto finding = finding_of(report, analysis, stress);
@@ -106,7 +106,7 @@ Finding judge_yield(const RunReport& report, const BodyAnalysis& analysis) {
   return worst;
 }
 
-Finding judge_resonance(const RunReport& report, const BodyAnalysis& analysis) {
+Finding judge_resonance(const RunReport& report, const Judged& analysis) {
   Finding finding{"resonance", Judgement::ok, "", "", "", std::nullopt, std::nullopt};
   if (!analysis.vibration) {
     finding.judgement = Judgement::not_judged;

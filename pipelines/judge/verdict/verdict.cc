@@ -15,7 +15,7 @@ void add(PartVerdict& part, const RunReport& report, std::optional<Finding> find
   part.findings.push_back(*std::move(finding));
 }
 
-PartVerdict judge_body(const RunReport& report, const BodyAnalysis& analysis) {
+PartVerdict judge_body(const RunReport& report, const Judged& analysis) {
   PartVerdict part{analysis.scene.name, Judgement::ok, {}};
   add(part, report, judge_yield(report, analysis));
   add(part, report, judge_surface(report, analysis));

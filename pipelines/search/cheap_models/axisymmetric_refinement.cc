@@ -11,7 +11,7 @@
 #include "fem/axisymmetric/axisymmetric_responses.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/judge/analysis/exclusion_border.h"
-#include "pipelines/judge/stages/respond.h"
+#include "pipelines/respond/responses/respond.h"
 #include "pipelines/scene/reader/why_not.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
 #include "pipelines/search/cheap_models/nodes_at_maxima.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fem/axisymmetric/meridian_body.h"
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {
 

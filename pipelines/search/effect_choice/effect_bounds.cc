@@ -40,7 +40,7 @@ struct Difference {
 };
 
 /// loads `a` less loads `b`.
-Difference difference(const BodyLoads& a, const BodyLoads& b, const BodyAnalysis& analysis,
+Difference difference(const BodyLoads& a, const BodyLoads& b, const Responded& analysis,
                       const std::vector<RegionMass>& regions) {
   std::map<std::string, Index> solved;
   const auto& own = analysis.loads.unit_loads;
@@ -68,7 +68,7 @@ Difference difference(const BodyLoads& a, const BodyLoads& b, const BodyAnalysis
 }
 
 /// Stress at a point from loads that were not solved: each force at the worst port.
-MoreStress estimate(const Difference& change, const BodyAnalysis& analysis) {
+MoreStress estimate(const Difference& change, const Judged& analysis) {
   return [&change, &analysis](const double* unit) {
     if (change.unsolved_N == 0 && change.unsolved_Nm == 0) return 0.0;
     double per_N = 0, per_Nm = 0;
@@ -89,20 +89,20 @@ MoreStress estimate(const Difference& change, const BodyAnalysis& analysis) {
   };
 }
 
-double governing_Pa(const LargestStresses& stresses, const BodyAnalysis& analysis) {
+double governing_Pa(const LargestStresses& stresses, const Judged& analysis) {
   return governing_stress(analysis).kind == GoverningStress::Kind::peak ? stresses.peak_Pa
                                                                         : stresses.hot_spot_Pa;
 }
 
 /// How much further both stresses may go.
-LargestStresses bound(const Difference& change, const BodyAnalysis& analysis, bool with_unsolved) {
+LargestStresses bound(const Difference& change, const Judged& analysis, bool with_unsolved) {
   const MoreStress none = [](const double*) { return 0.0; };
   const auto most = bound_under(analysis, change.solved, with_unsolved ? estimate(change, analysis) : none);
   const auto own = largest_stresses(analysis);
   return {std::max(0.0, most.peak_Pa - own.peak_Pa), std::max(0.0, most.hot_spot_Pa - own.hot_spot_Pa)};
 }
 
-EffectBound effect_bound(const std::string& effect, const Difference& change, const BodyAnalysis& analysis) {
+EffectBound effect_bound(const std::string& effect, const Difference& change, const Judged& analysis) {
   EffectBound result;
   result.effect = effect;
   result.bound_Pa = governing_Pa(bound(change, analysis, true), analysis);
@@ -113,7 +113,7 @@ EffectBound effect_bound(const std::string& effect, const Difference& change, co
 
 }  // namespace
 
-void bound_dropped_effects(const Loaded& loaded, std::size_t index, BodyAnalysis& analysis) {
+void bound_dropped_effects(const Loaded& loaded, std::size_t index, Judged& analysis) {
   const auto& scene = loaded.scene;
   const auto& choice = scene.effect_choice;
   if (choice.dropped.empty()) return;
@@ -161,7 +161,7 @@ void bound_dropped_effects(const Loaded& loaded, std::size_t index, BodyAnalysis
   analysis.dropped = std::move(bounds);
 }
 
-std::string effect_to_take_back(const Scene& scene, const std::vector<BodyAnalysis>& analyses) {
+std::string effect_to_take_back(const Scene& scene, const std::vector<Judged>& analyses) {
   for (const auto& analysis : analyses) {
     if (!analysis.dropped) continue;
     const double stress_Pa = governing_stress(analysis).value_Pa;

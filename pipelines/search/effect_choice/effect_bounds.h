@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/loads/stage/load_stage.h"
 
 namespace pipelines {
@@ -20,10 +20,10 @@ namespace pipelines {
 /// - the rest (spin, acceleration of a part) is estimated as the sum of its forces at that port where a force
 ///   stresses the point most, moments likewise; `estimated_Pa` tells how much of the bound that is.
 /// @param index  of the body in Scene::bodies
-void bound_dropped_effects(const Loaded& loaded, std::size_t index, BodyAnalysis& analysis);
+void bound_dropped_effects(const Loaded& loaded, std::size_t index, Judged& analysis);
 
 /// The dropped effect that has to come back: where the dropped ones together may move a governing stress by
 /// more than the limit, the one with the largest bound. Empty: none.
-std::string effect_to_take_back(const Scene& scene, const std::vector<BodyAnalysis>& analyses);
+std::string effect_to_take_back(const Scene& scene, const std::vector<Judged>& analyses);
 
 }  // namespace pipelines

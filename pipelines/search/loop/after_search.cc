@@ -5,7 +5,7 @@
 #include "pipelines/judge/estimates/in_time.h"
 #include "pipelines/judge/life/body_fatigue.h"
 #include "pipelines/judge/stages/body_vibration.h"
-#include "pipelines/judge/stages/respond.h"
+#include "pipelines/respond/responses/respond.h"
 
 namespace pipelines {
 namespace {
@@ -19,8 +19,8 @@ std::string warning_of_left_out(const std::string& body, const std::string& what
 }  // namespace
 
 std::vector<std::string> add_frequencies(const Scene& scene, const MeshedBody& meshed,
-                                         const kinetics::LoadHistory& loads, double seconds,
-                                         BodyAnalysis& analysis, StageClock& clock) {
+                                         const kinetics::LoadHistory& loads, double seconds, Judged& analysis,
+                                         StageClock& clock) {
   if (!in_time(seconds, [&] { add_vibration(scene, meshed, loads, analysis, clock); }))
     return {warning_of_left_out(analysis.scene.name, "natural frequencies",
                                 "what resonance adds to the stress is not known")};
@@ -30,7 +30,7 @@ std::vector<std::string> add_frequencies(const Scene& scene, const MeshedBody& m
 }
 
 std::vector<std::string> add_fatigue(const Scene& scene, const kinetics::LoadHistory& loads, double seconds,
-                                     int n_threads, BodyAnalysis& analysis, StageClock& clock) {
+                                     int n_threads, Judged& analysis, StageClock& clock) {
   const auto judge = [&] {
     const auto& time_s = loads.time_s;
     const double step_s = time_s.size() > 1 ? time_s[1] - time_s[0] : 0;

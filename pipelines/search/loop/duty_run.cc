@@ -10,7 +10,7 @@
 #include "pipelines/judge/estimates/time_sampling.h"
 #include "pipelines/judge/figures/served_loads.h"
 #include "pipelines/judge/life/duty_shares.h"
-#include "pipelines/judge/stages/respond.h"
+#include "pipelines/respond/responses/respond.h"
 #include "pipelines/search/loop/duty_loads.h"
 
 namespace pipelines {
@@ -41,7 +41,7 @@ ChannelHistory thinned(const ChannelHistory& history) {
   return result;
 }
 
-ServedBlock serve(const DutyBlock& block, const BodyAnalysis& analysis, BlockLoads& loads, std::size_t b,
+ServedBlock serve(const DutyBlock& block, const Responded& analysis, BlockLoads& loads, std::size_t b,
                   int n_threads) {
   const ServedLoads served(analysis.loads);
   const auto fitted = [&](BodyLoads&& own) {
@@ -64,7 +64,7 @@ ServedBlock serve(const DutyBlock& block, const BodyAnalysis& analysis, BlockLoa
   return result;
 }
 
-BlockStress stress_of(const BodyAnalysis& analysis, const ServedBlock& block) {
+BlockStress stress_of(const Judged& analysis, const ServedBlock& block) {
   const auto& largest_Pa = block.von_mises.value_Pa;
   const auto node = peak_node(largest_Pa, analysis.places);
   const auto feature = feature_at(analysis.responses.nodes, analysis.places, node);

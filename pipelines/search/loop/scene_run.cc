@@ -7,10 +7,10 @@
 
 #include "pipelines/base/common/refusal_of.h"
 #include "pipelines/judge/analysis/weld_places.h"
-#include "pipelines/judge/stages/respond.h"
+#include "pipelines/judge/stages/judge_body.h"
 #include "pipelines/judge/stages/start_up_stress.h"
-#include "pipelines/judge/stages/superpose_body.h"
 #include "pipelines/loads/stage/start_up_loads.h"
+#include "pipelines/respond/responses/respond.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
 #include "pipelines/search/effect_choice/effect_bounds.h"
 #include "pipelines/search/effect_choice/effect_choice.h"
@@ -141,9 +141,9 @@ private:
 
   /// The body by its model; with the choice left open, by the next more expensive one where that is refused
   /// or does not meet the tolerance.
-  BodyAnalysis solve(std::size_t i) {
+  Judged solve(std::size_t i) {
     while (is_without_mesh(methods_[i]) && loaded_.scene.method == Method::automatic) {
-      std::optional<BodyAnalysis> judged;
+      std::optional<Judged> judged;
       const bool is_refused = !refusal_of([&] { judged = solve_by_method(i); }).empty();
       if (!is_refused && (judged->search.met || time_.seconds_until(end_of(i)) <= 0))
         return std::move(*judged);
@@ -157,10 +157,10 @@ private:
     return solve_by_method(i);
   }
 
-  BodyAnalysis solve_by_method(std::size_t i) {
+  Judged solve_by_method(std::size_t i) {
     const auto run = run_of(i);
     auto model = model_of(methods_[i], run, loaded_);
-    BodyAnalysis judged;
+    Judged judged;
     if (is_search() || is_without_mesh(methods_[i])) {
       judged = search(model, run);
     } else {
@@ -178,7 +178,7 @@ private:
     if (!warning.empty()) warnings_.push_back(warning);
   }
 
-  void finish(std::size_t i, BodyAnalysis& judged) {
+  void finish(std::size_t i, Judged& judged) {
     auto& meshed = loaded_.meshed[i];
     if (options_.keep && !is_without_mesh(methods_[i]))
       kept_under_[judged.scene.name + '/' + kept_responses_name(Method::solid)] =
@@ -210,7 +210,7 @@ private:
   }
 
   /// Where the scene asks for it; operating blocks need it, however long it takes.
-  void judge_fatigue_of(BodyAnalysis& judged) {
+  void judge_fatigue_of(Judged& judged) {
     if (!judged.scene.fatigue || !options_.fatigue) return;
     for (const auto& warning :
          add_fatigue(loaded_.scene, loaded_.loads, options_.duty ? never : seconds_to_finish(),
@@ -219,7 +219,7 @@ private:
   }
 
   /// Where the scene asks for it, on the final responses.
-  void superpose_start(BodyAnalysis& judged) {
+  void superpose_start(Judged& judged) {
     if (!loaded_.start_up) return;
     clock_.run("start-up", [&] {
       judged.start_up = std::make_shared<const StartUpStress>(
@@ -234,7 +234,7 @@ private:
   std::vector<std::size_t> wanted_;  ///< bodies, by index
   std::vector<Method> methods_;      ///< by body
   Loaded loaded_;
-  std::vector<BodyAnalysis> judged_;  ///< the wanted bodies
+  std::vector<Judged> judged_;  ///< the wanted bodies
   std::map<std::string, std::string> kept_under_;
   std::vector<std::string> warnings_;
 };

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/loads/stage/load_stage.h"
 #include "pipelines/scene/values/requested_accuracy.h"
 
@@ -29,8 +29,8 @@ struct SceneRunOptions {
 };
 
 struct SceneRun {
-  Loaded loaded;                       ///< by the meshes, instants and harmonics that were chosen
-  std::vector<BodyAnalysis> analyses;  ///< in the order of Scene::bodies, or of the only body
+  Loaded loaded;                 ///< by the meshes, instants and harmonics that were chosen
+  std::vector<Judged> analyses;  ///< in the order of Scene::bodies, or of the only body
   /// Files of unit responses that were kept, as "body/file": hash of their key.
   std::map<std::string, std::string> kept_under;
 

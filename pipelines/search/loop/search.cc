@@ -10,8 +10,7 @@
 namespace pipelines {
 namespace {
 
-void record(const BodyModel& model, const BodyAnalysis& judged, std::size_t index, double seconds,
-            Search& search) {
+void record(const BodyModel& model, const Judged& judged, std::size_t index, double seconds, Search& search) {
   const auto stress = governing_stress(judged);
   const auto& scene = model.loaded().scene;
   search.quantity = stress.name();
@@ -21,19 +20,19 @@ void record(const BodyModel& model, const BodyAnalysis& judged, std::size_t inde
                           peak_memory_gigabytes()});
 }
 
-void compare_with_tolerance(const BodyAnalysis& judged, Search& search) {
+void compare_with_tolerance(const Judged& judged, Search& search) {
   const auto stress = governing_stress(judged);
   search.steps.back().errors = stress.errors;
   search.met = search.tolerance == 0 || stress.errors.reducible_Pa() <= search.tolerance * stress.value_Pa;
 }
 
 /// A finer model, solved, unless that would not end in time or does not fit into memory: then why.
-std::optional<BodyAnalysis> solved(BodyModel& finer, double seconds_left, std::string& why_not) {
+std::optional<Judged> solved(BodyModel& finer, double seconds_left, std::string& why_not) {
   const auto without_finer_mesh = [&](const std::string& why) {
     why_not = "a finer mesh could not be solved: " + why;
     return std::nullopt;
   };
-  std::optional<BodyAnalysis> result;
+  std::optional<Judged> result;
   try {
     if (!in_time(seconds_left, [&] { result = finer.solve(); })) why_not = time_is_up;
   } catch (const fem::DoesNotFit& error) {
@@ -45,8 +44,8 @@ std::optional<BodyAnalysis> solved(BodyModel& finer, double seconds_left, std::s
 }
 
 /// The next finer model and its stress; none: `search` says why.
-std::optional<BodyAnalysis> next(std::unique_ptr<BodyModel>& model, const BodyAnalysis& judged,
-                                 const RunOfBody& run, Search& search) {
+std::optional<Judged> next(std::unique_ptr<BodyModel>& model, const Judged& judged, const RunOfBody& run,
+                           Search& search) {
   auto finer = model->finer(judged, search);
   search.ended = finer.why_not;
   if (finer.seconds > 0) search.next_seconds = finer.seconds;
@@ -66,7 +65,7 @@ std::optional<BodyAnalysis> next(std::unique_ptr<BodyModel>& model, const BodyAn
 
 }  // namespace
 
-BodyAnalysis search(std::unique_ptr<BodyModel>& model, const RunOfBody& run) {
+Judged search(std::unique_ptr<BodyModel>& model, const RunOfBody& run) {
   Search search;
   search.tolerance = run.tolerance;
   search.time_limit_s = run.time_limit_s;

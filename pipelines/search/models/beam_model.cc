@@ -6,7 +6,6 @@
 
 #include "fem/beam/beam_responses.h"
 #include "pipelines/base/common/errors.h"
-#include "pipelines/judge/stages/superpose_body.h"
 #include "pipelines/loads/channels/closure.h"
 #include "pipelines/scene/reader/why_not.h"
 #include "pipelines/search/cheap_models/cheap_responses.h"
@@ -64,7 +63,7 @@ fem::UnitResponses with_axis(fem::UnitResponses r, int n_angles) {
 
 }  // namespace
 
-BodyAnalysis BeamModel::solve() {
+Judged BeamModel::solve() {
   if (const auto why = why_not_beam(body()); !why.empty())
     throw StageRefused("the " + body().name + " " + why + ": no beam");
   const RunTime time;
@@ -76,21 +75,20 @@ BodyAnalysis BeamModel::solve() {
     return with_axis(std::move(surface), fem::BeamShaft().n_angles);
   });
   seconds_ = time.seconds();
-  auto analysis =
-      superpose_body(body(), own, body_loads(), std::move(responses), run_.options.n_threads, clock());
-  analysis.method = Method::beam;
-  analysis.solve_s = seconds_;
-  return analysis;
+  auto by_beam = responded(body(), own, body_loads(), std::move(responses));
+  by_beam.method = Method::beam;
+  by_beam.solve_s = seconds_;
+  return judged(std::move(by_beam), own);
 }
 
-void BeamModel::judge(BodyAnalysis& solved) {
+void BeamModel::judge(Judged& solved) {
   for (const auto& entry :
        beam_model_entries(*beam_shaft(body(), meshed().mesh), solved.loads, solved.responses.nodes,
                           solved.envelope.von_mises.value_Pa, solved.places.excluded, solved.peak.value_Pa))
     solved.peak.errors.set_model(entry);
 }
 
-Finer BeamModel::finer(const BodyAnalysis& judged, const Search& search) {
+Finer BeamModel::finer(const Judged& judged, const Search& search) {
   auto scene = better_loads_.next(loaded_.scene, run_.index, judged, run_.tolerance);
   if (!scene)
     return {nullptr, search.met ? "the tolerance is met"
@@ -100,7 +98,7 @@ Finer BeamModel::finer(const BodyAnalysis& judged, const Search& search) {
   return {std::move(better), "", seconds_};
 }
 
-BodyAnalysis BeamModel::again(BodyAnalysis& before) {
+Judged BeamModel::again(Judged& before) {
   auto after = solve();
   judge(after);
   after.search = std::move(before.search);

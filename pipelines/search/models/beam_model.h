@@ -17,11 +17,11 @@ public:
   using BodyModel::BodyModel;
 
   /// @throws StageRefused if why_not_beam is not empty; LoadsDoNotClose
-  BodyAnalysis solve() override;
-  void judge(BodyAnalysis& solved) override;
-  Finer finer(const BodyAnalysis& judged, const Search& search) override;
+  Judged solve() override;
+  void judge(Judged& solved) override;
+  Finer finer(const Judged& judged, const Search& search) override;
   std::string fineness() const override { return "beam"; }
-  BodyAnalysis again(BodyAnalysis& before) override;
+  Judged again(Judged& before) override;
 
 private:
   BetterLoads better_loads_;

@@ -6,7 +6,7 @@
 
 namespace pipelines {
 
-std::optional<Scene> BetterLoads::refined(const Scene& scene, std::size_t index, const BodyAnalysis& judged,
+std::optional<Scene> BetterLoads::refined(const Scene& scene, std::size_t index, const Judged& judged,
                                           double tolerance) {
   constexpr double least_gain = 0.75;
   const auto stress = governing_stress(judged);
@@ -24,7 +24,7 @@ std::optional<Scene> BetterLoads::refined(const Scene& scene, std::size_t index,
   return next;
 }
 
-std::optional<Scene> BetterLoads::next(const Scene& scene, std::size_t index, const BodyAnalysis& judged,
+std::optional<Scene> BetterLoads::next(const Scene& scene, std::size_t index, const Judged& judged,
                                        double tolerance) {
   if (are_seats_felt_) return std::nullopt;
   if (tolerance > 0)

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/scene/whole/scene.h"
 
 namespace pipelines {
@@ -17,12 +17,10 @@ public:
   /// the seats whose pressure the leading places feel.
   /// @param judged     under the loads of `scene`
   /// @param tolerance  of the governing stress, relative; 0: none
-  std::optional<Scene> next(const Scene& scene, std::size_t index, const BodyAnalysis& judged,
-                            double tolerance);
+  std::optional<Scene> next(const Scene& scene, std::size_t index, const Judged& judged, double tolerance);
 
 private:
-  std::optional<Scene> refined(const Scene& scene, std::size_t index, const BodyAnalysis& judged,
-                               double tolerance);
+  std::optional<Scene> refined(const Scene& scene, std::size_t index, const Judged& judged, double tolerance);
 
   double share_before_ = std::numeric_limits<double>::infinity();  ///< of the loads' errors
   bool are_seats_felt_ = false;                                    ///< and asked for

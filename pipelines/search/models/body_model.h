@@ -6,12 +6,13 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pipelines/base/common/several_ranks.h"
-#include "pipelines/judge/analysis/body_analysis.h"
 #include "pipelines/judge/analysis/governing_stress.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/loads/stage/load_stage.h"
 
 namespace pipelines {
@@ -68,18 +69,18 @@ public:
   virtual ~BodyModel() = default;
 
   /// The stress of the body under its loads: responds and superposes.
-  virtual BodyAnalysis solve() = 0;
+  virtual Judged solve() = 0;
   /// Enters what this model, and those that it was refined from, tell of the errors of `solved`, which
   /// solve() has returned.
-  virtual void judge(BodyAnalysis& solved) = 0;
+  virtual void judge(Judged& solved) = 0;
   /// Before a search ends: judges the places that no step was for.
   /// @return false if they have been judged
-  virtual bool judge_rest(BodyAnalysis&) { return false; }
+  virtual bool judge_rest(Judged&) { return false; }
   /// @return why nothing finer is worth looking for; empty: it is
   virtual std::string reason_to_end(const Search&, const GoverningStress&) const { return {}; }
   /// The next model where the errors of `judged` are to become smaller, meshed and loaded. It may be solved
   /// while this one is there to return to.
-  virtual Finer finer(const BodyAnalysis& judged, const Search& search) = 0;
+  virtual Finer finer(const Judged& judged, const Search& search) = 0;
   /// Gives away what takes memory and could be made again.
   virtual void release() const {}
 
@@ -92,7 +93,7 @@ public:
   /// The stress of a search that has ended, under the loads of this model, which other bodies have changed
   /// since, with the errors that were found.
   /// @param before  gives away what stays
-  virtual BodyAnalysis again(BodyAnalysis& before);
+  virtual Judged again(Judged& before);
 
   const Loaded& loaded() const { return loaded_; }
 
@@ -106,8 +107,13 @@ protected:
   /// Another version of the scene, loaded, with this body's mesh in the place of the present one.
   Loaded loaded_with(const Scene& scene, MeshedBody mesh) const;
 
-  /// The present responses, superposed anew.
-  BodyAnalysis superposed_again(BodyAnalysis& before) const;
+  /// The responses of this model under its loads.
+  /// @param meshed  that the responses are of
+  /// @param known   their envelope, where it is known
+  Judged judged(Responded responded, const MeshedBody& meshed,
+                std::optional<Envelope> known = std::nullopt) const;
+  /// The responses of `before` under the present loads.
+  Judged judged_again(Judged& before) const;
 
   RunOfBody run_;
   Loaded loaded_;

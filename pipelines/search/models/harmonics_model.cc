@@ -7,7 +7,6 @@
 #include "fem/beam/beam_responses.h"
 #include "pipelines/base/common/constants.h"
 #include "pipelines/judge/stages/place_errors.h"
-#include "pipelines/judge/stages/superpose_body.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
 #include "pipelines/search/cheap_models/axisymmetric_refinement.h"
 #include "pipelines/search/cheap_models/cheap_responses.h"
@@ -20,7 +19,7 @@ constexpr double share_of_tolerance = 0.5, usual_target = 0.01;
 
 /// Bending by axial force and torsion by force across, both by the offset of an eccentric segment's axis from
 /// that of the model; largest over sections and instants, as von Mises stress.
-double offset_axis_Pa(const BodyAnalysis& analysis) {
+double offset_axis_Pa(const Judged& analysis) {
   double largest_Pa = 0;
   if (!analysis.diagrams) return 0;
   for (const auto& section : analysis.diagrams->sections) {
@@ -38,7 +37,7 @@ double offset_axis_Pa(const BodyAnalysis& analysis) {
 }
 
 /// Errors of the model itself, which no section lowers.
-void enter_model_errors(BodyAnalysis& analysis) {
+void enter_model_errors(Judged& analysis) {
   auto& errors = analysis.peak.errors;
   errors.set_numerical(
       {"geometry", "arcs are curves of degree 3: their changes are those of the discretisation", 0});
@@ -76,7 +75,7 @@ HarmonicsModel::HarmonicsModel(RunOfBody run, Loaded loaded)
       series_(std::make_shared<Series>(body(), with_own_sections(body(), meshed()), body_loads(),
                                        run_.options.n_threads)) {}
 
-BodyAnalysis HarmonicsModel::solve() {
+Judged HarmonicsModel::solve() {
   const RunTime time;
   auto step = series_->refinement.next(clock());
   ++series_->n_sections;
@@ -88,20 +87,19 @@ BodyAnalysis HarmonicsModel::solve() {
   if (const auto beam = beam_shaft(body(), meshed().mesh))
     torsion_.error_Pa += fem::eccentricity_error(*beam) * torsion_.value_Pa;
   series_->seconds += time.seconds();
-  auto analysis = superpose_body(body(), series_->meshed, body_loads(), std::move(step.responses),
-                                 run_.options.n_threads, clock(), {std::move(step.envelope), {}});
-  analysis.method = Method::axisymmetric;
-  analysis.solve_s = series_->seconds;
-  return analysis;
+  auto by_harmonics = responded(body(), series_->meshed, body_loads(), std::move(step.responses));
+  by_harmonics.method = Method::axisymmetric;
+  by_harmonics.solve_s = series_->seconds;
+  return judged(std::move(by_harmonics), series_->meshed, std::move(step.envelope));
 }
 
-void HarmonicsModel::judge(BodyAnalysis& solved) {
+void HarmonicsModel::judge(Judged& solved) {
   take_place_errors(solved, places_, "change from the coarser section");
   enter_model_errors(solved);
   if (solved.diagrams) solved.diagrams->by_harmonics = torsion_;
 }
 
-Finer HarmonicsModel::finer(const BodyAnalysis& judged, const Search& search) {
+Finer HarmonicsModel::finer(const Judged& judged, const Search& search) {
   const bool is_last_section = series_->n_sections >= AxisymmetricRefinement::most_steps;
   if (!is_section_fine_ && !is_last_section) return {std::make_unique<HarmonicsModel>(*this), "", 0};
   if (auto scene = better_loads_.next(loaded_.scene, run_.index, judged, run_.tolerance)) {
@@ -114,7 +112,7 @@ Finer HarmonicsModel::finer(const BodyAnalysis& judged, const Search& search) {
           is_section_fine_ ? "the section is fine enough; what is left is not its error" : "too many steps"};
 }
 
-BodyAnalysis HarmonicsModel::again(BodyAnalysis& before) {
+Judged HarmonicsModel::again(Judged& before) {
   auto after = BodyModel::again(before);
   enter_model_errors(after);
   return after;

@@ -23,11 +23,11 @@ public:
   HarmonicsModel(RunOfBody run, Loaded loaded);
 
   /// @throws LoadsDoNotClose
-  BodyAnalysis solve() override;
-  void judge(BodyAnalysis& solved) override;
-  Finer finer(const BodyAnalysis& judged, const Search& search) override;
+  Judged solve() override;
+  void judge(Judged& solved) override;
+  Finer finer(const Judged& judged, const Search& search) override;
   std::string fineness() const override { return fineness_; }
-  BodyAnalysis again(BodyAnalysis& before) override;
+  Judged again(Judged& before) override;
 
 private:
   struct Series;

@@ -12,8 +12,8 @@
 #include "pipelines/judge/estimates/fineness.h"
 #include "pipelines/judge/estimates/in_time.h"
 #include "pipelines/judge/estimates/submodels.h"
-#include "pipelines/judge/stages/analyse_body.h"
 #include "pipelines/judge/stages/place_errors.h"
+#include "pipelines/respond/responses/respond.h"
 #include "pipelines/search/models/search_mesh.h"
 #include "pipelines/search/refinement/second_model.h"
 #include "pipelines/search/refinement/singular_edge.h"
@@ -32,11 +32,11 @@ bool is_locking(const GoverningStress& stress) {
 SolidModel::SolidModel(RunOfBody run, Loaded loaded)
     : BodyModel(std::move(run), std::move(loaded)), known_(body()) {}
 
-BodyAnalysis SolidModel::solve() {
+Judged SolidModel::solve() {
   if (run_.is_search && is_first_) be_guided();
-  auto solved = analyse_body(body(), meshed(), body_loads(), run_.options, clock());
-  n_dofs_ = solved.responses.n_dofs;
-  return solved;
+  auto responded = respond(body(), meshed(), body_loads(), run_.options, clock());
+  n_dofs_ = responded.responses.n_dofs;
+  return judged(std::move(responded), meshed());
 }
 
 /// A second model tells a shaft's first mesh where to be fine.
@@ -81,7 +81,7 @@ void SolidModel::compare_with_second_model() {
   second_model_s_ = time.seconds();
 }
 
-void SolidModel::judge(BodyAnalysis& solved) {
+void SolidModel::judge(Judged& solved) {
   if (!run_.is_search) return judge_once(solved);
   if (has_other_loads_ && known_.history.second_model()) compare_with_second_model();
   const bool grows = known_.growth.at(solved, step_ ? step_->ratio : 1);
@@ -91,7 +91,7 @@ void SolidModel::judge(BodyAnalysis& solved) {
 }
 
 /// The scene's own mesh, beside which there is no other.
-void SolidModel::judge_once(BodyAnalysis& analysis) {
+void SolidModel::judge_once(Judged& analysis) {
   known_.history.add(places_of_this_mesh(analysis, 0), std::nullopt);
   take_place_errors(analysis, known_.history.judged(),
                     analysis.responses.nodes.shape().is_tetrahedron()
@@ -102,19 +102,19 @@ void SolidModel::judge_once(BodyAnalysis& analysis) {
 /// A stress that grows with every refinement has no peak to report: its place joins the sharp edges, which
 /// are left out by a distance fixed in the geometry, and the search goes on for the rest. The whole edge is
 /// left out: else the peak would only move along it. Where there is no edge, nothing is.
-void SolidModel::leave_out_edge_without_bound(BodyAnalysis& analysis) {
+void SolidModel::leave_out_edge_without_bound(Judged& analysis) {
   const auto found = edge_without_bound(analysis);
   if (!found) return;
   run_.warn(found->warning);
   loaded_.scene.bodies[run_.index].singular.push_back(found->edge);
   loaded_.meshed[run_.index].mesh.sharp_edges.push_back(found->edge);
-  BodyAnalysis before = std::move(analysis);
-  analysis = superposed_again(before);
+  Judged before = std::move(analysis);
+  analysis = judged_again(before);
 }
 
 /// The submodels that tell the errors of tetrahedra may take longer than the solution.
 /// @param end_s  of the submodels; 0: never
-std::vector<PlaceStress> SolidModel::places_of_this_mesh(const BodyAnalysis& analysis, double end_s) {
+std::vector<PlaceStress> SolidModel::places_of_this_mesh(const Judged& analysis, double end_s) {
   const double seconds = n_ranks_of_a_body() > 1 ? std::numeric_limits<double>::infinity()
                                                  : std::max(1e-3, run_.time.seconds_until(end_s));
   return clock().run("errors", [&] { return places_of_one_mesh(analysis, seconds); });
@@ -130,7 +130,7 @@ bool SolidModel::may_be_last(const std::vector<PlaceStress>& places) const {
 
 /// Enters what the meshes so far, and all cells of this one, tell of the places; keeps what a next step would
 /// cut.
-void SolidModel::judge_places(BodyAnalysis& analysis, GoalPlaces places) {
+void SolidModel::judge_places(Judged& analysis, GoalPlaces places) {
   const auto& second = known_.history.second_model();
   auto judged = known_.history.judged();
   if (is_refined_locally(analysis.scene)) {
@@ -148,7 +148,7 @@ void SolidModel::judge_places(BodyAnalysis& analysis, GoalPlaces places) {
   if (analysis.diagrams && second) analysis.diagrams->by_harmonics = second->torsion;
 }
 
-bool SolidModel::judge_rest(BodyAnalysis& judged) {
+bool SolidModel::judge_rest(Judged& judged) {
   if (is_rest_judged_) return false;
   judge_places(judged, GoalPlaces::all);
   return true;
@@ -158,7 +158,7 @@ std::string SolidModel::reason_to_end(const Search& search, const GoverningStres
   return pipelines::reason_to_end(search, stress, is_block_shaft(body()));
 }
 
-Finer SolidModel::finer(const BodyAnalysis& judged, const Search& search) {
+Finer SolidModel::finer(const Judged& judged, const Search& search) {
   const double seconds_before = search.steps.back().seconds - std::exchange(second_model_s_, 0.0);
   Scene next = scene();
   next.bodies[run_.index].felt_seats.merge(felt_seats(judged));
@@ -176,7 +176,7 @@ Finer SolidModel::with_better_loads(const Scene& next, double seconds_before) co
 }
 
 /// The part of the mesh that promises most of those that the mesher makes finer.
-Finer SolidModel::with_finer_mesh(const Scene& next, const BodyAnalysis& judged, double seconds_before) {
+Finer SolidModel::with_finer_mesh(const Scene& next, const Judged& judged, double seconds_before) {
   const auto i = run_.index;
   const auto& places = judged.place_stresses;
   const auto& target = places[pipelines::judge(places).holding_back].feature;

@@ -32,11 +32,11 @@ public:
   SolidModel(RunOfBody run, Loaded loaded);
 
   /// @throws fem::SolveFailed, fem::DoesNotFit, LoadsDoNotClose
-  BodyAnalysis solve() override;
-  void judge(BodyAnalysis& solved) override;
-  bool judge_rest(BodyAnalysis& judged) override;
+  Judged solve() override;
+  void judge(Judged& solved) override;
+  bool judge_rest(Judged& judged) override;
   std::string reason_to_end(const Search& search, const GoverningStress& stress) const override;
-  Finer finer(const BodyAnalysis& judged, const Search& search) override;
+  Finer finer(const Judged& judged, const Search& search) override;
   void release() const override;
 
   std::string fineness() const override;
@@ -47,12 +47,12 @@ private:
   void be_guided();
   void compare_with_second_model();
   std::optional<SecondModel> second_model();
-  void leave_out_edge_without_bound(BodyAnalysis& analysis);
-  std::vector<PlaceStress> places_of_this_mesh(const BodyAnalysis& analysis, double end_s);
-  void judge_places(BodyAnalysis& analysis, GoalPlaces places);
-  void judge_once(BodyAnalysis& analysis);
+  void leave_out_edge_without_bound(Judged& analysis);
+  std::vector<PlaceStress> places_of_this_mesh(const Judged& analysis, double end_s);
+  void judge_places(Judged& analysis, GoalPlaces places);
+  void judge_once(Judged& analysis);
   Finer with_better_loads(const Scene& next, double seconds_before) const;
-  Finer with_finer_mesh(const Scene& next, const BodyAnalysis& judged, double seconds_before);
+  Finer with_finer_mesh(const Scene& next, const Judged& judged, double seconds_before);
   Finer forecast(std::unique_ptr<SolidModel> finer, double seconds_before) const;
   bool may_be_last(const std::vector<PlaceStress>& places) const;
 

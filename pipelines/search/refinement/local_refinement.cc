@@ -79,12 +79,12 @@ std::array<double, 6> direction_of(const Stress& s, double weight) {
   return tensor;
 }
 
-std::vector<double> factors_at(const BodyAnalysis& analysis, std::int32_t instant) {
+std::vector<double> factors_at(const Responded& analysis, std::int32_t instant) {
   const Eigen::ArrayXd column = analysis.loads.history.values.col(instant);
   return {column.begin(), column.end()};
 }
 
-Goal goal_at(const BodyAnalysis& analysis, const HotSpotStress& spot) {
+Goal goal_at(const Superposed& analysis, const HotSpotStress& spot) {
   Goal goal{spot.name, {}, {factors_at(analysis, spot.instant), {}}, {}, true};
   const auto point = stress_point(spot);
   Stress stress{};
@@ -100,7 +100,7 @@ Goal goal_at(const BodyAnalysis& analysis, const HotSpotStress& spot) {
 }
 
 /// Nodes on the faces of a feature outside the exclusion distances; inside the body those without a feature.
-std::vector<std::size_t> nodes_of(const BodyAnalysis& analysis, const std::string& feature) {
+std::vector<std::size_t> nodes_of(const Superposed& analysis, const std::string& feature) {
   const auto& nodes = analysis.responses.nodes;
   std::vector<char> belongs(nodes.n, 0);
   for (const auto& known : analysis.mesh.features) {
@@ -117,7 +117,7 @@ std::vector<std::size_t> nodes_of(const BodyAnalysis& analysis, const std::strin
   return result;
 }
 
-Goal goal_at(const BodyAnalysis& analysis, const PlaceStress& place) {
+Goal goal_at(const Superposed& analysis, const PlaceStress& place) {
   const auto instant = analysis.envelope.von_mises.instant[place.node];
   Goal goal{place.feature, {}, {factors_at(analysis, instant), {}}, {place.node}, false};
   double sum = 0;
@@ -171,7 +171,7 @@ double range_Pa(const HotSpotStress& spot) {
 
 /// Weld toes whose faces are too long to tell, that may lead by stress, or by its range where fatigue is
 /// asked for.
-std::vector<const HotSpotStress*> coarse_toes(const BodyAnalysis& analysis,
+std::vector<const HotSpotStress*> coarse_toes(const Judged& analysis,
                                               const std::vector<PlaceStress>& judged) {
   double leading_range_Pa = 0;
   for (const auto& spot : analysis.hot_spots) leading_range_Pa = std::max(leading_range_Pa, range_Pa(spot));
@@ -196,7 +196,7 @@ bool are_images(const fem::MirrorImages& images, const std::vector<std::size_t>&
 
 /// Places that are mirror images of each other share a goal.
 /// @param most  goals
-std::vector<Goal> goals_of(const BodyAnalysis& analysis, const std::vector<const PlaceStress*>& places,
+std::vector<Goal> goals_of(const Judged& analysis, const std::vector<const PlaceStress*>& places,
                            std::size_t most) {
   std::vector<Goal> goals;
   for (const auto* place : places) {
@@ -218,7 +218,7 @@ std::vector<Goal> goals_of(const BodyAnalysis& analysis, const std::vector<const
 
 /// Of each goal, what each cell contributes to its error. Some at a time: dual solutions and their stresses
 /// are as large as those of unit loads.
-std::vector<std::vector<double>> contributions_Pa(const fem::Model& model, const BodyAnalysis& analysis,
+std::vector<std::vector<double>> contributions_Pa(const fem::Model& model, const Responded& analysis,
                                                   const std::vector<Goal>& goals) {
   constexpr std::size_t at_once = 12;
   std::vector<std::vector<double>> all;
@@ -245,7 +245,7 @@ std::vector<std::size_t> goals_to_cut_for(const std::vector<Goal>& goals,
 
 /// Beside a sharp shoulder stress is too high where cells are large, and a single cut moves the maximum to
 /// the next large cell around the shaft: all nodes there that are nearly as high.
-std::vector<std::size_t> nodes_at_border(const BodyAnalysis& analysis, const PlaceStress& place) {
+std::vector<std::size_t> nodes_at_border(const Superposed& analysis, const PlaceStress& place) {
   constexpr double nearly = 0.9;
   std::vector<std::size_t> result;
   for (const auto node : nodes_of(analysis, place.feature)) {
@@ -296,7 +296,7 @@ bool is_refined_locally(const BodyScene& body) {
   return is_of_blocks && body.degree > 1;
 }
 
-LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analysis,
+LocalRefinement cells_to_cut(const fem::Model& model, const Judged& analysis,
                              const std::vector<PlaceStress>& by_changes, GoalPlaces places,
                              double tolerance) {
   const auto goals = places == GoalPlaces::all

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/judge/estimates/place_stress.h"
 #include "pipelines/search/refinement/place_history.h"
 
@@ -51,7 +51,7 @@ std::vector<PlaceStress> with_goal_errors(std::vector<PlaceStress> judged, const
 /// @param by_changes  the places with their errors so far, not empty
 /// @param places      whose errors by goals are wanted; one that may lead with that error is cut for, too
 /// @param tolerance   of the largest stress, relative: no more is cut than it needs; 0: none
-LocalRefinement cells_to_cut(const fem::Model& model, const BodyAnalysis& analysis,
+LocalRefinement cells_to_cut(const fem::Model& model, const Judged& analysis,
                              const std::vector<PlaceStress>& by_changes, GoalPlaces places, double tolerance);
 
 /// Cuts them: a further cycle of body.refinements.

@@ -16,7 +16,7 @@ namespace {
 /// more of it with every refinement, but at a fixed distance it converges.
 constexpr double beside_edge = 2;
 
-bool beside_left_out_edge(const BodyAnalysis& analysis) {
+bool beside_left_out_edge(const Judged& analysis) {
   const auto& edges = analysis.mesh.sharp_edges;
   return std::any_of(edges.begin(), edges.end(), [&](const auto& edge) {
     return distance_m(analysis.peak.position_m, edge) < beside_edge * edge.distance_m;
@@ -24,7 +24,7 @@ bool beside_left_out_edge(const BodyAnalysis& analysis) {
 }
 
 /// A circle rounds a fillet off: its stress has a bound, however long coarse cells keep finding more of it.
-bool is_on_fillet(const BodyAnalysis& analysis) {
+bool is_on_fillet(const Judged& analysis) {
   const auto& features = analysis.mesh.features;
   return std::any_of(features.begin(), features.end(), [&](const auto& feature) {
     return feature.name == analysis.peak.feature && feature.kind == meshes::Feature::Kind::fillet;
@@ -33,7 +33,7 @@ bool is_on_fillet(const BodyAnalysis& analysis) {
 
 }  // namespace
 
-bool PeakGrowth::at(const BodyAnalysis& analysis, double ratio) {
+bool PeakGrowth::at(const Judged& analysis, double ratio) {
   if (!analysis.hot_spots.empty() || is_on_fillet(analysis) || beside_left_out_edge(analysis)) return false;
   std::map<std::string, double> now{{analysis.peak.feature, analysis.peak.value_Pa}};
   if (analysis.responses.nodes.shape().is_tetrahedron())

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {
 
@@ -16,7 +16,7 @@ public:
   /// @param ratio  of cell sizes from the step before to this one
   /// @return whether the stress there grows without bound (refinement.h); never for hot-spot stresses, which
   /// are extrapolated past the toe, nor on a fillet, nor beside an edge that is left out already
-  bool at(const BodyAnalysis& analysis, double ratio);
+  bool at(const Judged& analysis, double ratio);
 
 private:
   struct Course {

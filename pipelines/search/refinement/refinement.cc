@@ -58,8 +58,7 @@ std::vector<std::size_t> fillets_that_may_lead(const BodyScene& body,
 
 /// Whether cells are half or twice as large away from the toes moves the hot-spot stress of a tube by 1 %, at
 /// the toes by 4 %, through the wall, beside them, by 3 %.
-MeshStep refine_chamber(BodyScene& body, const BodyAnalysis& analysis,
-                        const std::vector<PlaceStress>& judged) {
+MeshStep refine_chamber(BodyScene& body, const Judged& analysis, const std::vector<PlaceStress>& judged) {
   const auto& target = judged[judge(judged).holding_back].feature;
   const bool is_toe = std::any_of(analysis.hot_spots.begin(), analysis.hot_spots.end(),
                                   [&](const auto& spot) { return spot.name == target; });
@@ -156,7 +155,7 @@ std::optional<MeshStep> refine_shaft(BodyScene& body, const std::vector<PlaceStr
   return MeshStep{part, step_factor, 2, {}};
 }
 
-std::optional<MeshStep> refine_solid(BodyScene& body, const BodyAnalysis& analysis,
+std::optional<MeshStep> refine_solid(BodyScene& body, const Superposed& analysis,
                                      const std::vector<PlaceStress>& judged) {
   if (!can_be_refined(body)) return std::nullopt;  // its cells may be hexahedra
   auto* shaft = std::get_if<ShaftShape>(&body.shape);
@@ -332,7 +331,7 @@ OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t index, c
   return result;
 }
 
-std::optional<MeshStep> refine_mesh(BodyScene& body, const BodyAnalysis& analysis,
+std::optional<MeshStep> refine_mesh(BodyScene& body, const Judged& analysis,
                                     const std::vector<PlaceStress>& judged, MeshPart part) {
   if (judged.empty()) return std::nullopt;
   if (is_block_shaft(body)) return refine_shaft(body, judged, part);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/judge/analysis/body_analysis.h"
 #include "pipelines/judge/analysis/governing_stress.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/scene/whole/scene.h"
 #include "pipelines/search/refinement/place_history.h"
 
@@ -65,7 +65,7 @@ OtherRefinement refine_sampling_and_harmonics(Scene& scene, std::size_t index, c
 /// further away falls like h^(2 lambda), lambda = 0.544.
 /// @param judged  the places with all that is known of their errors
 /// @return nothing if that part cannot be finer
-std::optional<MeshStep> refine_mesh(BodyScene& body, const BodyAnalysis& analysis,
+std::optional<MeshStep> refine_mesh(BodyScene& body, const Judged& analysis,
                                     const std::vector<PlaceStress>& judged, MeshPart part);
 
 /// Whether a stress keeps growing like a power of the cell size: over the last two refinements its exponent,

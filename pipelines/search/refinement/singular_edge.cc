@@ -106,7 +106,7 @@ std::vector<std::array<std::array<double, 3>, 2>> singular_edge_through(const fe
   return segments;
 }
 
-std::optional<EdgeWithoutBound> edge_without_bound(const BodyAnalysis& analysis) {
+std::optional<EdgeWithoutBound> edge_without_bound(const Judged& analysis) {
   const auto& p = analysis.peak.position_m;
   const auto& nodes = analysis.responses.nodes;
   const double distance_m = left_out_around_edges_m(nodes);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fem/values/unit_responses.h"
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {
 
@@ -31,6 +31,6 @@ struct EdgeWithoutBound {
 };
 /// @return nothing where no edge is near: in the middle of a face, and on fillets, stress has a bound,
 /// however long coarse cells find more of it
-std::optional<EdgeWithoutBound> edge_without_bound(const BodyAnalysis& analysis);
+std::optional<EdgeWithoutBound> edge_without_bound(const Judged& analysis);
 
 }  // namespace pipelines

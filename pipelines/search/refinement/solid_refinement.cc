@@ -45,7 +45,7 @@ std::vector<double> cell_sizes_m(const fem::Nodes& nodes) {
 /// What the nodes along a place may be wrong by, against its largest: its own error is that of one node,
 /// which is among the least wrong, and cells around one node agree by chance.
 constexpr double scatter_safety = 1.5;
-double error_of_nodes_Pa(const BodyAnalysis& analysis, const PlaceStress& place) {
+double error_of_nodes_Pa(const Superposed& analysis, const PlaceStress& place) {
   const auto instant = analysis.envelope.von_mises.instant[place.node];
   const Eigen::ArrayXd factors = analysis.loads.history.values.col(instant);
   const auto scatter = tetrahedra_estimate({{{place.node, 1.0}}, instant}, analysis.responses,
@@ -54,7 +54,7 @@ double error_of_nodes_Pa(const BodyAnalysis& analysis, const PlaceStress& place)
 }
 
 /// The least stress of each place, by its name, that may be the largest of the body.
-std::map<std::string, double> least_leading_Pa(const BodyAnalysis& analysis,
+std::map<std::string, double> least_leading_Pa(const Superposed& analysis,
                                                const std::vector<PlaceStress>& judged) {
   const double largest_Pa = judged[judge(judged).governing].value_Pa;
   std::map<std::string, double> least;
@@ -66,7 +66,7 @@ std::map<std::string, double> least_leading_Pa(const BodyAnalysis& analysis,
 }
 
 /// The nodes of all places that may lead, by falling stress; the largest of each place among them.
-std::vector<std::size_t> leading_nodes(const BodyAnalysis& analysis, const std::vector<PlaceStress>& judged,
+std::vector<std::size_t> leading_nodes(const Superposed& analysis, const std::vector<PlaceStress>& judged,
                                        std::vector<std::string>& features) {
   const auto least = least_leading_Pa(analysis, judged);
   const auto& nodes = analysis.responses.nodes;
@@ -102,7 +102,7 @@ double seconds_of_tetrahedra(double n_dofs) {
   return s_per_dof * n_dofs + s_per_dof_of_factor * std::pow(n_dofs, growth_of_seconds);
 }
 
-LeadingSurface leading_surface(const BodyAnalysis& analysis, const std::vector<PlaceStress>& judged) {
+LeadingSurface leading_surface(const Superposed& analysis, const std::vector<PlaceStress>& judged) {
   LeadingSurface result;
   const auto& nodes = analysis.responses.nodes;
   const auto sizes_m = cell_sizes_m(nodes);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "meshes/solids/solid_control.h"
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/judge/estimates/place_stress.h"
 
 namespace pipelines {
@@ -26,6 +26,6 @@ struct LeadingSurface {
 /// next.
 /// @param judged  the places with their errors, not empty
 /// @return nothing where no cell holds these nodes
-LeadingSurface leading_surface(const BodyAnalysis& analysis, const std::vector<PlaceStress>& judged);
+LeadingSurface leading_surface(const Superposed& analysis, const std::vector<PlaceStress>& judged);
 
 }  // namespace pipelines

@@ -5,7 +5,8 @@
 #include <optional>
 
 #include "pipelines/judge/estimates/fineness.h"
-#include "pipelines/judge/stages/superpose_body.h"
+#include "pipelines/judge/stages/judge_body.h"
+#include "pipelines/respond/responses/respond.h"
 #include "pipelines/search/effect_choice/effect_report.h"
 #include "pipelines/search/refinement/refinement.h"
 #include "pipelines/study/accuracy/accuracy_models.h"
@@ -62,9 +63,12 @@ void fewer_instants(AccuracyBench& bench, const AccuracyRow& full, SceneRun run,
     StageClock own;
     run.loaded = load_bodies(scene, std::move(run.loaded.meshed), own);
     auto& analysis = run.analyses.front();
-    analysis = superpose_body(scene.bodies[body], run.loaded.meshed[body], run.loaded.body_loads[body],
-                              std::move(analysis.responses), bench.options().n_threads, own,
-                              {{}, analysis.hot_spots});
+    const auto& meshed = run.loaded.meshed[body];
+    auto fewer =
+        responded(scene.bodies[body], meshed, run.loaded.body_loads[body], std::move(analysis.responses));
+    const int n_threads = bench.options().n_threads;
+    analysis = judge_body(superpose(std::move(fewer), threads(n_threads), own), meshed, true, n_threads, own,
+                          std::vector(analysis.hot_spots));
     auto row = row_of("fewer instants", run);
     row.fineness = fmt::format("{} instants per turn; {}", row.instants_per_turn, row.fineness);
     for (const char* source : {"discretisation", "other_places"})

@@ -17,7 +17,7 @@ constexpr int intervals_on_face = 32;
 
 /// The largest von Mises stress on the faces around the peak, at its instant: that at a node changes from
 /// mesh to mesh with where the nodes happen to lie, which hides how stress converges.
-double peak_between_nodes_Pa(const BodyAnalysis& analysis) {
+double peak_between_nodes_Pa(const Judged& analysis) {
   const auto& peak = analysis.peak;
   const Eigen::ArrayXd factors = analysis.loads.history.values.col(peak.instant);
   double largest_Pa = peak.value_Pa;

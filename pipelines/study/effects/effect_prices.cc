@@ -20,7 +20,7 @@ std::size_t n_feeding(const ChannelHistory& history, Eigen::Index k) {
 
 }  // namespace
 
-std::vector<EffectPrice> price_effects(const BodyAnalysis& analysis, double solve_s, double superpose_s,
+std::vector<EffectPrice> price_effects(const Judged& analysis, double solve_s, double superpose_s,
                                        const std::vector<std::pair<std::string, double>>& evaluation_s) {
   const auto& history = analysis.loads.history;
   const auto n_channels = history.values.rows();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {
 
@@ -26,7 +26,7 @@ struct EffectPrice {
 /// @param solve_s, superpose_s  of this run; 0: not known
 /// @param evaluation_s          seconds of the load stage with and without the effect, by effect; may be
 /// shorter
-std::vector<EffectPrice> price_effects(const BodyAnalysis& analysis, double solve_s, double superpose_s,
+std::vector<EffectPrice> price_effects(const Judged& analysis, double solve_s, double superpose_s,
                                        const std::vector<std::pair<std::string, double>>& evaluation_s);
 
 /// One line for each effect: share of the peak, channels, seconds.

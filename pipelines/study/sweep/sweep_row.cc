@@ -39,8 +39,7 @@ void add_load_figures(SweepRow& row, const Scene& scene, const kinetics::LoadHis
     row.figures.add({"loads", ".warnings"}, "", double(n));
 }
 
-void add_body_figures(SweepRow& row, const BodyAnalysis& analysis,
-                      const std::optional<LargestTorsion>& torsion) {
+void add_body_figures(SweepRow& row, const Judged& analysis, const std::optional<LargestTorsion>& torsion) {
   const std::string body = "bodies." + analysis.scene.name;
   const auto stress = governing_stress(analysis);
   const auto add = [&](const std::string& name, const std::string& unit, double value) {

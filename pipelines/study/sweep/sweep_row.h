@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kinetics/values/load_history.h"
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/loads/channels/bearings.h"
 #include "pipelines/study/sweep/swept_zones.h"
 #include "pipelines/study/variations/sweep_figures.h"
@@ -33,7 +33,6 @@ void add_load_figures(SweepRow& row, const Scene& scene, const kinetics::LoadHis
 /// "bodies.<name>": governing stress with its errors, safety, place, instant; peak, hot spot; the largest
 /// stress of every place that may govern; closure; zones where the analysis has them.
 /// @param torsion  largest torsional stress of a shaft, where it has one; its error where that is finite
-void add_body_figures(SweepRow& row, const BodyAnalysis& analysis,
-                      const std::optional<LargestTorsion>& torsion);
+void add_body_figures(SweepRow& row, const Judged& analysis, const std::optional<LargestTorsion>& torsion);
 
 }  // namespace pipelines

@@ -10,8 +10,8 @@
 
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/common/parallel.h"
-#include "pipelines/judge/stages/respond.h"
 #include "pipelines/loads/stage/same_body.h"
+#include "pipelines/respond/responses/respond.h"
 #include "pipelines/scene/reader/scene_tree.h"
 #include "pipelines/study/sweep/swept_bodies.h"
 #include "pipelines/study/variations/point_work.h"

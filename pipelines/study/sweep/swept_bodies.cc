@@ -7,9 +7,9 @@
 
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/common/parallel.h"
-#include "pipelines/judge/stages/respond.h"
 #include "pipelines/judge/stages/shaft_torsion.h"
 #include "pipelines/loads/stage/same_body.h"
+#include "pipelines/respond/responses/respond.h"
 #include "pipelines/scene/reader/scene_tree.h"
 #include "pipelines/study/variations/point_work.h"
 
@@ -23,7 +23,7 @@ Scene with_masses(Scene scene, const Loaded& loaded) {
 
 /// Largest torsional stress of a parametric shaft, with its error as a run states it.
 /// @param searched  of a body under other loads: the one whose responses it has
-std::optional<LargestTorsion> torsion_of(BodyAnalysis& analysis, const BodyAnalysis& searched) {
+std::optional<LargestTorsion> torsion_of(Judged& analysis, const Judged& searched) {
   if (analysis.scene.shaft() == nullptr) return std::nullopt;
   if (!analysis.diagrams) {
     analysis.diagrams.emplace().rings = torsion_rings(analysis.loads, analysis.responses, analysis.mesh);

@@ -63,7 +63,7 @@ private:
     std::vector<Solution> solutions;
   };
   /// Copies of analyses that a thread works on.
-  using Scratch = std::map<const BodyDesign*, BodyAnalysis>;
+  using Scratch = std::map<const BodyDesign*, Judged>;
 
   Solution& solution_of(std::size_t p, std::size_t b) { return bodies_[b].solutions[of_point_[p][b]]; }
   /// Whether another point has a point's solution of a body, or would be solved on its mesh.

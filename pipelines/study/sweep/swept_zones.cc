@@ -111,7 +111,7 @@ void number_by_peak(const std::vector<SweepRow>& rows, std::vector<std::vector<i
 
 }  // namespace
 
-std::vector<SweptZone> swept_zones(const BodyAnalysis& analysis) {
+std::vector<SweptZone> swept_zones(const Judged& analysis) {
   std::vector<SweptZone> result;
   for (const auto& zone : analysis.zones.zones) {
     SweptZone swept{figures_of(analysis, zone), analysis.scene.name, {}, {}, zone.instant};

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/judge/texts/zone_text.h"
 
 namespace pipelines {
@@ -23,7 +23,7 @@ struct SweptZone : ZoneFigures {
 };
 
 /// Descending peak.
-std::vector<SweptZone> swept_zones(const BodyAnalysis& analysis);
+std::vector<SweptZone> swept_zones(const Judged& analysis);
 
 /// Which zones of different points are one. A zone is that of the nearest earlier point (keys in shares of
 /// their range) whose box meets its own, nearest peaks first; where none is left, that of any earlier point,

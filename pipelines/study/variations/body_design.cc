@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/judge/stages/judge_body.h"
 #include "pipelines/judge/stages/place_errors.h"
-#include "pipelines/judge/stages/superpose_body.h"
 
 namespace pipelines {
 
@@ -13,7 +13,7 @@ BodyDesign::BodyDesign(const Scene& as_read, SceneRun& run, std::size_t i_body, 
       found_(as_read, run.loaded.scene, i_body),
       meshed_(std::move(run.loaded.meshed[i_body])) {
   const auto analysis = std::find_if(run.analyses.begin(), run.analyses.end(),
-                                     [&](const BodyAnalysis& a) { return a.scene.name == found_.body.name; });
+                                     [&](const Judged& a) { return a.scene.name == found_.body.name; });
   analysis_ = std::move(*analysis);
   meshed_.model.reset();
   served_.emplace(analysis_.loads);
@@ -25,8 +25,8 @@ BodyDesign::BodyDesign(const Scene& as_read, SceneRun& run, std::size_t i_body, 
     if (place.value_Pa > 0) shares_[place.feature].own = place.error_Pa / place.value_Pa;
 }
 
-BodyAnalysis BodyDesign::at_point(BodyAnalysis analysis, const BodyScene& body, BodyLoads loads,
-                                  const ZoneRule* zones) const {
+Judged BodyDesign::at_point(Judged analysis, const BodyScene& body, BodyLoads loads,
+                            const ZoneRule* zones) const {
   analysis.scene = body;
   loads = served_->with_all_channels(std::move(loads));
   auto leading = leading_->envelope(loads.history, analysis.responses);

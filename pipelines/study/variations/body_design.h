@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/judge/figures/served_loads.h"
 #include "pipelines/loads/stage/load_stage.h"
 #include "pipelines/search/loop/found_body.h"
@@ -37,7 +37,7 @@ public:
   void enter(Scene& scene, std::size_t i_body) const { found_.enter(scene, i_body); }
 
   const MeshedBody& meshed() const { return meshed_; }
-  const BodyAnalysis& analysis() const { return analysis_; }
+  const Judged& analysis() const { return analysis_; }
   /// Cheap models have no responses that serve other points: their bodies are run anew.
   bool serves_other_points() const { return analysis_.method == Method::solid; }
   /// Whether its unit responses are those of all these loads.
@@ -51,14 +51,13 @@ public:
   /// @param body      of the point, with the mesh entered
   /// @param loads     that it covers
   /// @param zones     null: none
-  BodyAnalysis at_point(BodyAnalysis analysis, const BodyScene& body, BodyLoads loads,
-                        const ZoneRule* zones) const;
+  Judged at_point(Judged analysis, const BodyScene& body, BodyLoads loads, const ZoneRule* zones) const;
 
 private:
   std::string searched_for_;
   FoundBody found_;
   MeshedBody meshed_;
-  BodyAnalysis analysis_;
+  Judged analysis_;
   std::optional<ServedLoads> served_;
   std::map<std::string, PlaceShare> shares_;
   std::shared_ptr<const LeadingStress> leading_;  ///< none of cheap models

@@ -14,14 +14,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {
 
 class LeadingStress {
 public:
   /// @param known  with the whole envelope
-  explicit LeadingStress(const BodyAnalysis& known);
+  explicit LeadingStress(const Judged& known);
 
   /// Of each feature the node with the largest von Mises stress outside the exclusion distances, and of the
   /// inside where it is at least nine tenths of that (place_stress.h), as a whole envelope has them, bit for

@@ -6,7 +6,7 @@
 
 #include "pipelines/base/fields/field.h"
 #include "pipelines/base/fields/field_outputs.h"
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/judge/texts/moment.h"
 
 namespace pipelines {
@@ -15,7 +15,7 @@ namespace pipelines {
 struct BodyResult {
   const Scene& scene;  ///< of the run, with the instants of the loads
   const kinetics::LoadHistory& loads;
-  const BodyAnalysis& analysis;
+  const Judged& analysis;
 };
 
 /// Of an instant that may lie between two.

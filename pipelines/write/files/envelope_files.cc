@@ -90,7 +90,7 @@ std::size_t nearest_node(const fem::Nodes& nodes, const std::array<double, 3>& p
   return best;
 }
 
-std::vector<double> hot_spot_values(const BodyAnalysis& analysis) {
+std::vector<double> hot_spot_values(const Judged& analysis) {
   std::vector<double> values(analysis.responses.nodes.n, not_converged);
   for (const auto& spot : analysis.hot_spots)  // a corner may be the toe of several: the largest comes first
     if (auto& value = values[nearest_node(analysis.responses.nodes, spot.toe_m)]; std::isnan(value))
@@ -99,7 +99,7 @@ std::vector<double> hot_spot_values(const BodyAnalysis& analysis) {
 }
 
 /// On the surface; NaN inside, where fatigue is not judged.
-void add_fatigue(Fields& fields, const BodyAnalysis& analysis) {
+void add_fatigue(Fields& fields, const Judged& analysis) {
   const auto& fatigue = *analysis.fatigue;
   const std::size_t n = analysis.responses.nodes.n;
   std::vector<double> amplitude(n, not_converged), mean(n, not_converged), utilisation(n, not_converged);
@@ -114,7 +114,7 @@ void add_fatigue(Fields& fields, const BodyAnalysis& analysis) {
   fields.add_result("fatigue utilisation without support by gradient", std::move(utilisation));
 }
 
-FieldData governing_data(const BodyAnalysis& analysis) {
+FieldData governing_data(const Judged& analysis) {
   const auto stress = governing_stress(analysis);
   FieldData data;
   data.names = {{"governing stress, place", {stress.name() + " at " + stress.place}}};
@@ -124,7 +124,7 @@ FieldData governing_data(const BodyAnalysis& analysis) {
 }
 
 void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
-                    const BodyAnalysis& analysis, int n_pieces) {
+                    const Judged& analysis, int n_pieces) {
   const auto& nodes = analysis.responses.nodes;
   const auto& envelope = analysis.envelope;
   const auto& effects = analysis.loads.history.effects;
@@ -170,7 +170,7 @@ void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHi
 }
 
 /// Stress and displacement of the surface at one instant.
-void write_snapshot(const path& file, const SurfaceSnapshots& files, const BodyAnalysis& analysis,
+void write_snapshot(const path& file, const SurfaceSnapshots& files, const Superposed& analysis,
                     Eigen::Index instant) {
   const auto& responses = analysis.responses;
   const auto& loads = analysis.loads.history;
@@ -197,23 +197,23 @@ std::string unconverged(const std::string& field) {
   return "not converged where excluded: " + field;
 }
 
-std::string pictured_field(const BodyAnalysis& analysis) {
+std::string pictured_field(const Superposed& analysis) {
   return some_excluded(analysis.places) ? unconverged(von_mises_field) : von_mises_field;
 }
 
 void write_envelope_files(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
-                          const BodyAnalysis& analysis, int n_pieces) {
+                          const Judged& analysis, int n_pieces) {
   write_envelope(directory / (n_pieces > 1 ? "envelope.pvtu" : "envelope.vtu"), scene, loads, analysis,
                  n_pieces);
 }
 
 void write_whole_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
-                          const BodyAnalysis& analysis) {
+                          const Judged& analysis) {
   write_envelope(file, scene, loads, analysis, 1);
 }
 
 void write_cycle_files(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
-                       const BodyAnalysis& analysis, int n_threads) {
+                       const Judged& analysis, int n_threads) {
   const Eigen::Index per_turn = scene.sampling.instants_per_turn;
   const Eigen::Index first = governing_stress(analysis).instant / per_turn * per_turn;
   std::vector<PvdEntry> entries;

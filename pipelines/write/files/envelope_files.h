@@ -10,7 +10,7 @@
 #include <string>
 
 #include "kinetics/values/load_history.h"
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/scene/whole/scene.h"
 
 namespace pipelines {
@@ -34,21 +34,21 @@ inline constexpr const char* surface_field = "on the surface";
 std::string unconverged(const std::string& field);
 
 /// A field of the envelope that is finite all over the body, of von Mises stress.
-std::string pictured_field(const BodyAnalysis& analysis);
+std::string pictured_field(const Superposed& analysis);
 
 /// envelope.vtu, or in several pieces envelope.pvtu with envelope_0.vtu ...; what an earlier run on another
 /// number of ranks has left is removed. Field data "governing stress": value, position and place.
 void write_envelope_files(const std::filesystem::path& directory, const Scene& scene,
-                          const kinetics::LoadHistory& loads, const BodyAnalysis& analysis, int n_pieces);
+                          const kinetics::LoadHistory& loads, const Judged& analysis, int n_pieces);
 
 /// What envelope.vtu has, in one file of any name.
 void write_whole_envelope(const std::filesystem::path& file, const Scene& scene,
-                          const kinetics::LoadHistory& loads, const BodyAnalysis& analysis);
+                          const kinetics::LoadHistory& loads, const Judged& analysis);
 
 /// cycle.pvd with cycle_*.vtu over the turn of the governing stress. Snapshots of an earlier run that this
 /// one does not write are removed.
 /// @param n_threads  that write files; their bytes are the same for any number
 void write_cycle_files(const std::filesystem::path& directory, const Scene& scene,
-                       const kinetics::LoadHistory& loads, const BodyAnalysis& analysis, int n_threads = 1);
+                       const kinetics::LoadHistory& loads, const Judged& analysis, int n_threads = 1);
 
 }  // namespace pipelines

@@ -53,7 +53,7 @@ void write_mesh(const path& file, const meshes::BodyMesh& mesh) {
 }
 
 void write_body_results(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
-                        const BodyAnalysis& analysis, int n_pieces, int n_threads) {
+                        const Judged& analysis, int n_pieces, int n_threads) {
   if (is_first_rank()) {
     if (analysis.method == Method::solid) write_mesh(directory / "mesh.msh", analysis.mesh);
     write_envelope_files(directory, scene, loads, analysis, n_pieces);

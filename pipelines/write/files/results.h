@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinetics/values/load_history.h"
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/loads/channels/load_files.h"
 #include "pipelines/scene/whole/scene.h"
 
@@ -27,7 +27,7 @@ void write_mesh(const std::filesystem::path& file, const meshes::BodyMesh& mesh)
 /// @param n_pieces  of the envelope, one for each MPI rank: with several of them envelope.pvtu and
 /// envelope_<rank>.vtu stand for envelope.vtu
 void write_body_results(const std::filesystem::path& directory, const Scene& scene,
-                        const kinetics::LoadHistory& loads, const BodyAnalysis& analysis, int n_pieces = 1,
+                        const kinetics::LoadHistory& loads, const Judged& analysis, int n_pieces = 1,
                         int n_threads = 1);
 
 }  // namespace pipelines

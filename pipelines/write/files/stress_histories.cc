@@ -14,7 +14,7 @@
 #include "pipelines/base/files/json_file.h"
 #include "pipelines/base/names/name_lists.h"
 #include "pipelines/base/names/nearest_name.h"
-#include "pipelines/judge/stages/respond.h"
+#include "pipelines/respond/responses/respond.h"
 #include "pipelines/respond/responses/response_files.h"
 #include "pipelines/superpose/envelope/superposition.h"
 #include "pipelines/write/exports/vtk_files.h"

@@ -17,7 +17,7 @@ namespace {
 constexpr double same_strength = 0.005;
 
 /// Empty where it has one.
-std::string why_no_din_743(const FatigueRules& rules, const BodyAnalysis& analysis) {
+std::string why_no_din_743(const FatigueRules& rules, const Judged& analysis) {
   if (!is_din_steel(rules.group()))
     return fmt::format("it is for rolled and forged steel, not for {}", rules.group().name);
   if (analysis.scene.shaft() == nullptr) return "it is for shafts of round solid sections";
@@ -44,7 +44,7 @@ std::string size_text(const LifeAtSize& at_size) {
 
 }  // namespace
 
-std::string strength_text(const Scene& of_run, const BodyAnalysis& analysis) {
+std::string strength_text(const Scene& of_run, const Judged& analysis) {
   const FatigueRules rules(analysis.scene.fatigue.value());
   const auto& scene = rules.scene();
   const bool size_is_given = std::none_of(
@@ -79,7 +79,7 @@ std::string strength_text(const Scene& of_run, const BodyAnalysis& analysis) {
                      least.yield_factor);
 }
 
-std::vector<std::string> fatigue_assumptions(const BodyAnalysis& analysis) {
+std::vector<std::string> fatigue_assumptions(const Judged& analysis) {
   const FatigueRules rules(analysis.scene.fatigue.value());
   const auto& scene = rules.scene();
   const auto limit = rules.limit(0, {});

@@ -13,10 +13,10 @@ namespace pipelines {
 /// place that is used most.
 /// @param of_run    with the defaults that it took
 /// @param analysis  with fatigue
-std::string strength_text(const Scene& of_run, const BodyAnalysis& analysis);
+std::string strength_text(const Scene& of_run, const Judged& analysis);
 
 /// Sentences: rules, factors and defaults.
 /// @param analysis  whose scene asks for fatigue
-std::vector<std::string> fatigue_assumptions(const BodyAnalysis& analysis);
+std::vector<std::string> fatigue_assumptions(const Judged& analysis);
 
 }  // namespace pipelines

@@ -23,7 +23,7 @@ using summary::Json;
 
 constexpr std::size_t n_places_shown = 6;
 
-BodyResult result_of(const RunReport& report, const BodyAnalysis& analysis) {
+BodyResult result_of(const RunReport& report, const Judged& analysis) {
   return {report.scene, report.loads, analysis};
 }
 
@@ -62,7 +62,7 @@ void print_may_last_less(std::ostream& out, const std::string& first,
   out << fmt::format("    by the errors of their stresses these may last less than {}: {}\n", first, names);
 }
 
-void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+void print_fatigue(std::ostream& out, const RunReport& report, const Judged& analysis) {
   if (!analysis.fatigue || analysis.fatigue->places.empty()) return;
   const auto body = result_of(report, analysis);
   const auto& places = analysis.fatigue->places;
@@ -155,7 +155,7 @@ void print_shortest_lives(std::ostream& out, const RunReport& report) {
              shown_rows(fields_of(fields), rows, rows.size()));
 }
 
-Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis) {
+Json fatigue_json(const RunReport& report, const Judged& analysis) {
   const auto body = result_of(report, analysis);
   const auto& fatigue = *analysis.fatigue;
   Json json;

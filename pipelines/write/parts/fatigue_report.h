@@ -13,7 +13,7 @@
 namespace pipelines {
 
 /// The first places, with what brings the amplitude, and the rules; nothing where the scene does not ask.
-void print_fatigue(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis);
+void print_fatigue(std::ostream& out, const RunReport& report, const Judged& analysis);
 
 /// Places and weld toes of all bodies by rising life, over all operating blocks where the scene has some;
 /// those that endure by the least life that their errors leave, then by falling utilisation. Empty where
@@ -30,7 +30,7 @@ void print_shortest_lives(std::ostream& out, const RunReport& report);
 summary::Json fatigue_ranking_json(const RunReport& report);
 
 /// What bodies.<body>.fatigue has.
-summary::Json fatigue_json(const RunReport& report, const BodyAnalysis& analysis);
+summary::Json fatigue_json(const RunReport& report, const Judged& analysis);
 
 /// All places, by falling utilisation.
 void write_fatigue(const std::filesystem::path& file, const BodyResult& body);

@@ -20,7 +20,7 @@ CsvColumn series(std::string name, std::string unit, const Eigen::ArrayXd& value
       {std::move(name), std::move(unit), std::vector<double>(values.data(), values.data() + values.size())});
 }
 
-Json section_rows(const FieldTable<SectionRow>& fields, const BodyAnalysis& analysis) {
+Json section_rows(const FieldTable<SectionRow>& fields, const Judged& analysis) {
   auto rows = Json::array();
   for (const auto& section : analysis.diagrams->sections)
     rows.push_back(whole_row(fields, SectionRow{section, analysis.peak.instant}));
@@ -40,13 +40,13 @@ Json seats_json(const Diagrams& diagrams) {
   return json;
 }
 
-void write_diagrams(const std::filesystem::path& file, const BodyAnalysis& analysis) {
+void write_diagrams(const std::filesystem::path& file, const Judged& analysis) {
   const auto fields = section_fields();
   write_csv(file, csv_columns(fields_of(fields), section_rows(fields, analysis)));
 }
 
 void write_torsion(const std::filesystem::path& directory, const kinetics::LoadHistory& loads,
-                   const BodyAnalysis& analysis) {
+                   const Judged& analysis) {
   const auto fields = torsion_fields();
   write_csv(directory / "torsion.csv", csv_columns(fields_of(fields), section_rows(fields, analysis)));
   const auto& sections = analysis.diagrams->sections;
@@ -70,13 +70,13 @@ ShownRows shown_element_stresses(const Json& elements) {
   return shown_named_rows("element", fields_of(element_stress_fields()), elements);
 }
 
-void print_element_torsion(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+void print_element_torsion(std::ostream& out, const RunReport& report, const Judged& analysis) {
   const auto elements = element_torsion_json(report, analysis);
   print_rows(out, "torque on the shaft", shown_element_torques(elements));
   print_rows(out, "torsional stress near", shown_element_stresses(elements));
 }
 
-Json element_torsion_json(const RunReport& report, const BodyAnalysis& analysis) {
+Json element_torsion_json(const RunReport& report, const Judged& analysis) {
   const auto fields = joined(element_torque_fields(), element_stress_fields());
   Json json;
   for (const auto& e : element_torsion(analysis, report.loads, course_of_loads(report.scene, report.loads)))
@@ -85,7 +85,7 @@ Json element_torsion_json(const RunReport& report, const BodyAnalysis& analysis)
 }
 
 void write_element_torsion(const std::filesystem::path& file, const kinetics::LoadHistory& loads,
-                           const BodyAnalysis& analysis) {
+                           const Judged& analysis) {
   const auto elements = element_torsion(analysis, loads);
   if (elements.empty()) return;
   std::vector<CsvColumn> columns{series("time", "s", loads.time_s), series("phi", "rad", loads.phi_rad)};
@@ -108,14 +108,14 @@ ShownRows shown_start_up(const Json& start_up) {
   return shown_named_rows("", fields_of(start_up_fields()), rows);
 }
 
-void print_start_up(std::ostream& out, const BodyAnalysis& analysis) {
+void print_start_up(std::ostream& out, const Judged& analysis) {
   if (!analysis.start_up) return;
   const auto& time_s = analysis.start_up->time_s;
   print_rows(out, fmt::format("start-up, {:.4g} s in {} instants", time_s[time_s.size() - 1], time_s.size()),
              shown_start_up(start_up_json(analysis)));
 }
 
-Json start_up_json(const BodyAnalysis& analysis) {
+Json start_up_json(const Judged& analysis) {
   const auto& start = *analysis.start_up;
   const auto fields = start_up_fields();
   StartUpRow peak{start.von_mises, "Pa"};
@@ -139,7 +139,7 @@ Json start_up_json(const BodyAnalysis& analysis) {
   return json;
 }
 
-void write_start_up(const std::filesystem::path& file, const BodyAnalysis& analysis) {
+void write_start_up(const std::filesystem::path& file, const Judged& analysis) {
   const auto& start = *analysis.start_up;
   std::vector<CsvColumn> columns{series("time", "s", start.time_s),
                                  series("drive_angle", "rad", start.drive_angle_rad),

@@ -19,41 +19,41 @@ ShownRows shown_seats(const summary::Json& seats);
 summary::Json seats_json(const Diagrams& diagrams);
 
 /// @param analysis  with section diagrams
-void write_diagrams(const std::filesystem::path& file, const BodyAnalysis& analysis);
+void write_diagrams(const std::filesystem::path& file, const Judged& analysis);
 
 /// torsion.csv, and torsion_cycle.csv: over the instants, at the middle one of the sections of each segment.
 /// @param analysis  with section diagrams
 void write_torsion(const std::filesystem::path& directory, const kinetics::LoadHistory& loads,
-                   const BodyAnalysis& analysis);
+                   const Judged& analysis);
 
 /// Torques of the elements beside those of the stress field, torsional stress with its static and oscillating
 /// part; nothing for other bodies.
-void print_element_torsion(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis);
+void print_element_torsion(std::ostream& out, const RunReport& report, const Judged& analysis);
 
 /// The same two tables from bodies.<body>.torsion.elements.
 ShownRows shown_element_torques(const summary::Json& elements);
 ShownRows shown_element_stresses(const summary::Json& elements);
 
 /// What bodies.<body>.torsion.elements has; null for other bodies.
-summary::Json element_torsion_json(const RunReport& report, const BodyAnalysis& analysis);
+summary::Json element_torsion_json(const RunReport& report, const Judged& analysis);
 
 /// Over the instants, of each element: torque, the same by the stress field, nominal torsional stress, and
 /// that at the ring stressed most. Writes nothing for other bodies.
 void write_element_torsion(const std::filesystem::path& file, const kinetics::LoadHistory& loads,
-                           const BodyAnalysis& analysis);
+                           const Judged& analysis);
 
 /// The start beside steady running; nothing where the scene asks for none.
-void print_start_up(std::ostream& out, const BodyAnalysis& analysis);
+void print_start_up(std::ostream& out, const Judged& analysis);
 
 /// The same from bodies.<body>.start_up.
 ShownRows shown_start_up(const summary::Json& start_up);
 
 /// What bodies.<body>.start_up has.
-summary::Json start_up_json(const BodyAnalysis& analysis);
+summary::Json start_up_json(const Judged& analysis);
 
 /// Over the start: angle and speed of the drive, torque of each element, torsional stress at the ring
 /// stressed most.
 /// @param analysis  with a start
-void write_start_up(const std::filesystem::path& file, const BodyAnalysis& analysis);
+void write_start_up(const std::filesystem::path& file, const Judged& analysis);
 
 }  // namespace pipelines

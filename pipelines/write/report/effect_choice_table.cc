@@ -16,7 +16,7 @@ std::string rough_percent(double share) {
 }
 
 /// Of the body's governing stress; an estimate is said to be one.
-std::string bound_text(const EffectBound& bound, const BodyAnalysis& analysis) {
+std::string bound_text(const EffectBound& bound, const Judged& analysis) {
   const double stress_Pa = governing_stress(analysis).value_Pa;
   if (!(stress_Pa > 0)) return "-";
   return rough_percent(bound.bound_Pa / stress_Pa) + (bound.estimated_Pa > 0 ? " (est.)" : "");
@@ -41,7 +41,7 @@ void print_groups(std::ostream& out, const EffectChoice& choice) {
 
 }  // namespace
 
-void print_effect_choice(std::ostream& out, const Scene& scene, const std::vector<BodyAnalysis>& bodies) {
+void print_effect_choice(std::ostream& out, const Scene& scene, const std::vector<Judged>& bodies) {
   const auto& choice = scene.effect_choice;
   if (choice.offered.empty()) return;
   const std::string off = "off by effects = \"auto\"";

@@ -18,7 +18,7 @@
 namespace pipelines {
 namespace {
 
-void print_masses(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+void print_masses(std::ostream& out, const RunReport& report, const Responded& analysis) {
   for (const auto& figure : report.masses)
     if (figure.body == analysis.scene.name)
       out << fmt::format("  {}: {:.5g} {}{}\n", figure.name, figure.given, figure.unit,
@@ -70,7 +70,7 @@ void print_vibration(std::ostream& out, const Vibration& vibration) {
 }
 
 /// What the body is judged by, first of all that it is not known well.
-void print_governing(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+void print_governing(std::ostream& out, const RunReport& report, const Judged& analysis) {
   const auto stress = governing_stress(analysis);
   out << "\n  " << analysis.scene.name << ": ";
   if (const auto trouble = not_known_well(stress, analysis.search); !trouble.empty())
@@ -102,7 +102,7 @@ void print_zones(std::ostream& out, const BodyResult& body) {
     out << fmt::format("       and {} more in zones.csv\n", rows.size() - n_zones_shown);
 }
 
-void print_solver(std::ostream& out, const BodyAnalysis& analysis) {
+void print_solver(std::ostream& out, const Responded& analysis) {
   out << fmt::format("  {} unknowns, {} unit loads{}; {:.3f} kg\n", analysis.responses.n_dofs,
                      analysis.responses.channels.size(),
                      analysis.responses_reused ? " (responses of an earlier run)" : "",
@@ -126,7 +126,7 @@ void print_solver(std::ostream& out, const BodyAnalysis& analysis) {
                        1e-9 * solver.ranks[r].bytes);
 }
 
-void print_body(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+void print_body(std::ostream& out, const RunReport& report, const Judged& analysis) {
   const BodyResult body{report.scene, report.loads, analysis};
   if (analysis.fatigue) out << "\n  " << analysis.scene.name << ": " << strength_text(report.scene, analysis);
   print_governing(out, report, analysis);

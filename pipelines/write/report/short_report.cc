@@ -32,7 +32,7 @@ bool is_same(double a, double b) {
   return std::abs(a - b) <= same_value * std::max(std::abs(a), std::abs(b));
 }
 
-void print_governing_stress(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+void print_governing_stress(std::ostream& out, const RunReport& report, const Judged& analysis) {
   const auto stress = governing_stress(analysis);
   out << fmt::format("\n  {}: {} {}, safety against yield {}\n", analysis.scene.name, stress.name(),
                      value_with_shares(stress.value_Pa, stress.errors), fixed(stress.safety, 2));
@@ -48,7 +48,7 @@ void print_governing_stress(std::ostream& out, const RunReport& report, const Bo
                      value_with_shares(peak.value_Pa, peak.errors), peak.feature, to_string(peak.place));
 }
 
-std::string model_text(const BodyAnalysis& analysis) {
+std::string model_text(const Judged& analysis) {
   auto text = fmt::format("{} unknowns, {:.3f} kg", analysis.responses.n_dofs, analysis.masses.mass_kg);
   if (analysis.method == Method::beam)
     text += ", by the beam model: no section diagrams, no torsion along the shaft, zones without volume";
@@ -64,7 +64,7 @@ std::string model_text(const BodyAnalysis& analysis) {
   return text;
 }
 
-void print_other_stresses(std::ostream& out, const BodyAnalysis& analysis) {
+void print_other_stresses(std::ostream& out, const Judged& analysis) {
   out << fmt::format("    largest principal stress {} MPa",
                      stress_in_MPa(analysis.envelope.principal.value_Pa[analysis.principal_node], 0));
   if (const auto* ring = analysis.diagrams ? largest_torsion_ring(*analysis.diagrams) : nullptr) {
@@ -109,14 +109,14 @@ std::vector<ZoneRow> zone_rows(const std::vector<Zone>& zones) {
   return rows;
 }
 
-bool is_known(const BodyAnalysis& analysis, const Zone& zone) {
+bool is_known(const Judged& analysis, const Zone& zone) {
   const auto error = error_Pa(analysis, zone);
   return error && *error < known_by_half * zone.peak_Pa;
 }
 
 /// The largest zones; mirror images are one, those that are known worse than to half of themselves are
 /// counted.
-void print_short_zones(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+void print_short_zones(std::ostream& out, const RunReport& report, const Judged& analysis) {
   const auto& zones = analysis.zones.zones;
   out << fmt::format("    {:<46}{:>16}{:>8}{:>12}  moment, surface\n",
                      fmt::format("zones above {} MPa", stress_in_MPa(analysis.zones.level_Pa, 0)), "MPa",
@@ -165,7 +165,7 @@ void add_row(std::vector<LifeRow>& rows, LifeRow row) {
 }
 
 /// Welds and surface alike, the least margin first.
-std::vector<LifeRow> life_rows(const BodyAnalysis& analysis) {
+std::vector<LifeRow> life_rows(const Judged& analysis) {
   std::vector<LifeRow> rows;
   for (const auto& weld : analysis.fatigue->welds)
     add_row(rows, {weld.name + " (weld toe)", weld.range_Pa, weld.error_share, weld.life_safety,
@@ -184,7 +184,7 @@ std::vector<LifeRow> life_rows(const BodyAnalysis& analysis) {
   return rows;
 }
 
-void print_lives(std::ostream& out, const BodyAnalysis& analysis) {
+void print_lives(std::ostream& out, const Judged& analysis) {
   if (!analysis.fatigue) return;
   const auto rows = life_rows(analysis);
   out << fmt::format("    {:<46}{:>16}  life\n", "fatigue", "range MPa");
@@ -195,11 +195,11 @@ void print_lives(std::ostream& out, const BodyAnalysis& analysis) {
 }
 
 /// Which size the strength is for, before any life that follows from it.
-void print_strength(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+void print_strength(std::ostream& out, const RunReport& report, const Judged& analysis) {
   if (analysis.fatigue) out << "    " << strength_text(report.scene, analysis) << '\n';
 }
 
-void print_weld_toes(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+void print_weld_toes(std::ostream& out, const RunReport& report, const Judged& analysis) {
   if (analysis.fatigue || analysis.hot_spots.empty()) return;
   const auto& spot = analysis.hot_spots.front();
   out << fmt::format("    hot-spot stress at {}: {} MPa, range across the weld {} MPa, {}\n", spot.name,
@@ -208,7 +208,7 @@ void print_weld_toes(std::ostream& out, const RunReport& report, const BodyAnaly
                      moment_text(report, spot.instant));
 }
 
-void print_deflections(std::ostream& out, const BodyAnalysis& analysis) {
+void print_deflections(std::ostream& out, const Judged& analysis) {
   if (!analysis.diagrams || analysis.diagrams->seats.empty()) return;
   const auto& seats = analysis.diagrams->seats;
   const auto most = [&](double SeatMotion::*what) {
@@ -220,7 +220,7 @@ void print_deflections(std::ostream& out, const BodyAnalysis& analysis) {
                      moved->max_deflection_m * 1e3, moved->port, turned->max_slope_rad * 1e3, turned->port);
 }
 
-void print_short_vibration(std::ostream& out, const BodyAnalysis& analysis) {
+void print_short_vibration(std::ostream& out, const Judged& analysis) {
   if (!analysis.vibration) return;
   out << "    natural frequencies";
   for (const auto& natural : analysis.vibration->natural_frequencies)
@@ -228,7 +228,7 @@ void print_short_vibration(std::ostream& out, const BodyAnalysis& analysis) {
   out << " Hz, " << analysis.vibration->held << '\n';
 }
 
-void print_short_body(std::ostream& out, const RunReport& report, const BodyAnalysis& analysis) {
+void print_short_body(std::ostream& out, const RunReport& report, const Judged& analysis) {
   print_governing_stress(out, report, analysis);
   out << "    " << model_text(analysis) << '\n';
   if (const auto corners = corners_left_out(analysis); !corners.empty())

@@ -14,7 +14,7 @@ std::string summary_json(const RunReport& report);
 
 /// What effects = "auto" has switched off, and what that could change at most; nothing for other scenes.
 /// @param bodies  solved; none: nothing is known of stresses
-void print_effect_choice(std::ostream& out, const Scene& scene, const std::vector<BodyAnalysis>& bodies);
+void print_effect_choice(std::ostream& out, const Scene& scene, const std::vector<Judged>& bodies);
 
 /// The table for a person: verdict, loads, what governs each body with its largest zones and shortest lives,
 /// bearings, warnings, seconds. At most fifteen lines a body.

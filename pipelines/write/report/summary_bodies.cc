@@ -33,7 +33,7 @@ Json search_json(const Search& search) {
 }
 
 /// Beside max_shear_stress, which is a headline.
-Json torsion_json(const BodyAnalysis& analysis) {
+Json torsion_json(const Judged& analysis) {
   const auto& diagrams = *analysis.diagrams;
   const auto largest_in_section =
       std::max_element(diagrams.sections.begin(), diagrams.sections.end(), [](const auto& a, const auto& b) {
@@ -67,7 +67,7 @@ void add_vibration(const Vibration& vibration, Json& json) {
               {"amplification", number(dynamic.highest.amplification)}});
 }
 
-Json energy_error_json(const BodyAnalysis& analysis) {
+Json energy_error_json(const Responded& analysis) {
   const auto errors = energy_errors(analysis.responses.energy_error, analysis.loads.history.values);
   Json json = figure(errors.over_cycle, "1");
   for (std::size_t k = 0; k < errors.channels.size(); ++k)
@@ -77,7 +77,7 @@ Json energy_error_json(const BodyAnalysis& analysis) {
 
 }  // namespace
 
-Json body_json(const RunReport& report, const BodyAnalysis& analysis) {
+Json body_json(const RunReport& report, const Judged& analysis) {
   const auto& quality = analysis.mesh.quality;
   const BodyResult body{report.scene, report.loads, analysis};
   Json json;

@@ -7,6 +7,6 @@
 namespace pipelines::summary {
 
 /// What bodies.<body> has.
-Json body_json(const RunReport& report, const BodyAnalysis& analysis);
+Json body_json(const RunReport& report, const Judged& analysis);
 
 }  // namespace pipelines::summary

@@ -115,7 +115,7 @@ std::string scene_text(unsigned seed, const std::string& kind) {
 }
 
 struct Run {
-  BodyAnalysis analysis;
+  Judged analysis;
   int harmonics = 0;
 };
 

@@ -55,7 +55,7 @@ struct Tally {
 };
 
 /// Holds each place that has a reference against it.
-void judge_places(const BodyAnalysis& analysis, const promises::Reference& reference, Outcome& outcome) {
+void judge_places(const Judged& analysis, const promises::Reference& reference, Outcome& outcome) {
   for (const auto& place : analysis.place_stresses) {
     const auto known = reference.places.find(place.feature);
     if (known == reference.places.end() || known->second < share_of_places * reference.peak_Pa) continue;

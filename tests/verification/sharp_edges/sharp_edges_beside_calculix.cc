@@ -24,7 +24,7 @@
 
 namespace {
 
-using pipelines::BodyAnalysis;
+using pipelines::Judged;
 using Point = std::array<double, 3>;
 
 constexpr double nearest = 1.2, farthest = 3;  // of the distance that is left out
@@ -67,7 +67,7 @@ Point nearest_on(const std::array<Point, 2>& piece, const Point& at) {
 }
 
 /// The point of a sharp edge beside which a run finds the largest stress.
-Point leading_foot(const BodyAnalysis& analysis) {
+Point leading_foot(const Judged& analysis) {
   const auto& nodes = analysis.responses.nodes;
   const double d = analysis.mesh.sharp_edges.front().distance_m;
   double largest = 0;
@@ -98,7 +98,7 @@ struct Reference {
   Point foot{};                     ///< of the edge, amid its fine cells
 };
 
-Reference reference(const pipelines::Scene& scene, const BodyAnalysis& first,
+Reference reference(const pipelines::Scene& scene, const Judged& first,
                     const std::filesystem::path& directory) {
   const double d = first.mesh.sharp_edges.front().distance_m;
   const Point foot = leading_foot(first);
@@ -162,7 +162,7 @@ struct Comparison {
 };
 
 /// The stated error at a point of the surface, by its nodes.
-double stated_Pa(const BodyAnalysis& analysis, const fem::PointOnBoundary& on) {
+double stated_Pa(const Judged& analysis, const fem::PointOnBoundary& on) {
   double error_Pa = 0;
   for (const auto& feature : analysis.mesh.features)
     if (feature.boundary_id == analysis.responses.nodes.face_boundary_id[on.face])
@@ -172,7 +172,7 @@ double stated_Pa(const BodyAnalysis& analysis, const fem::PointOnBoundary& on) {
   return error_Pa;
 }
 
-Comparison compare(const BodyAnalysis& analysis, const Reference& reference) {
+Comparison compare(const Judged& analysis, const Reference& reference) {
   const auto& nodes = analysis.responses.nodes;
   const double d = analysis.mesh.sharp_edges.front().distance_m;
   const Eigen::ArrayXd factors = analysis.loads.history.values.col(0);
@@ -202,7 +202,7 @@ Comparison compare(const BodyAnalysis& analysis, const Reference& reference) {
 }
 
 /// By CalculiX where a run has its largest stress; 0 inside the body, and where its cells are not fine.
-double at_peak_Pa(const Reference& reference, const BodyAnalysis& analysis) {
+double at_peak_Pa(const Reference& reference, const Judged& analysis) {
   const auto& at_m = analysis.peak.position_m;
   const double d = analysis.mesh.sharp_edges.front().distance_m;
   const auto on = fem::point_on_boundary(reference.nodes, at_m, 0.05 * d);
@@ -212,7 +212,7 @@ double at_peak_Pa(const Reference& reference, const BodyAnalysis& analysis) {
   return value_Pa;
 }
 
-BodyAnalysis run(const pipelines::Scene& scene, double tolerance, const std::filesystem::path& directory) {
+Judged run(const pipelines::Scene& scene, double tolerance, const std::filesystem::path& directory) {
   pipelines::SceneRunOptions options;
   options.directory = directory / "run";
   options.fresh = true;

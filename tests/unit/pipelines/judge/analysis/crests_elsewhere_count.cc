@@ -26,8 +26,8 @@ ChannelHistory constant_and_third_order(int turns = 1) {
 }
 
 /// Three nodes, of which the constant load stresses the first with 100 MPa; nothing else stresses any.
-BodyAnalysis constant_at_one_node(int turns = 1) {
-  BodyAnalysis analysis;
+Judged constant_at_one_node(int turns = 1) {
+  Judged analysis;
   analysis.loads.history = constant_and_third_order(turns);
   auto& responses = analysis.responses;
   responses.channels = {"a.fz", "b.fz"};

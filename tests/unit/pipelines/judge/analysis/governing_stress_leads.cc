@@ -11,8 +11,8 @@ using namespace pipelines;
 
 namespace {
 
-BodyAnalysis body(double peak_MPa, double hot_spot_MPa) {
-  BodyAnalysis analysis;
+Judged body(double peak_MPa, double hot_spot_MPa) {
+  Judged analysis;
   analysis.scene.yield_strength_Pa = 235e6;
   analysis.peak.value_Pa = peak_MPa * 1e6;
   analysis.peak.feature = "tube outside";

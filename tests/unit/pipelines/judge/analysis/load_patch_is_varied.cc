@@ -32,8 +32,8 @@ constexpr double per_coefficient[] = {2.0, 7.0, -3.0, 1.0, 0.5};
 constexpr double force_N[] = {10, 40, 25};
 
 /// A point under a seat pressure, its zone at theta = 0.
-BodyAnalysis at_one_point(const PressureModel& model) {
-  BodyAnalysis analysis;
+Judged at_one_point(const PressureModel& model) {
+  Judged analysis;
   analysis.loads.pressures["seat"] = model;
   auto& responses = analysis.responses;
   responses.nodes.n = 1;

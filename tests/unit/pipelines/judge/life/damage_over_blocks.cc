@@ -29,7 +29,7 @@ struct Block {
 };
 
 struct Example {
-  BodyAnalysis body;
+  Judged body;
   std::vector<Block> blocks;
 
   explicit Example(std::mt19937& random) {

@@ -25,7 +25,7 @@ constexpr LoadPeriod one_second{1, 1};
 
 /// Effects on channels with some orders each. Every node of a layer has the same stress.
 struct Body {
-  BodyAnalysis analysis;
+  Judged analysis;
 
   /// @param depth_share by channel: how much less it stresses a node 1 mm below the surface, x = 0
   Body(const UnitStresses& unit_Pa, const std::vector<ArrayXXd>& by_effect,
@@ -344,7 +344,7 @@ struct DutyExample {
   std::vector<Envelope> envelopes;
   std::vector<NodalCycles> cycles;
 
-  double damage_per_s(const BodyAnalysis& body, double starts_per_s, std::vector<double>* shares) {
+  double damage_per_s(const Judged& body, double starts_per_s, std::vector<double>* shares) {
     std::vector<BlockOnBody> blocks;
     envelopes.clear(), cycles.clear();
     for (const auto& loads : running) {

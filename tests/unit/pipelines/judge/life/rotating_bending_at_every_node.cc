@@ -89,7 +89,7 @@ constexpr double far_from_seats = 7;
 
 /// By how much a node's amplitude differs from the closed form at most, in rho a r: the theory of beams
 /// leaves out stresses of that order, by which the load is handed on across the section.
-double off(const BodyAnalysis& analysis) {
+double off(const Judged& analysis) {
   const auto& cycles = analysis.fatigue->cycles;
   double most = 0;
   int n = 0;

@@ -19,7 +19,7 @@ constexpr LoadPeriod twentieth_of_a_second{0.05, 3};  // three turns: no life ma
 template <typename Stress_MPa>
 WeldFatigue toe_under(const WeldToeScene& rules, Stress_MPa&& stress_MPa) {
   const examples::Row row(3);
-  BodyAnalysis body;
+  Judged body;
   body.method = Method::beam;  // without gradients
   body.mesh.features = row.features;
   body.places = row.places();

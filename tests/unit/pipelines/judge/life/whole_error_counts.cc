@@ -22,7 +22,7 @@ constexpr double design_MPa = 180, slope = 5;
 /// fillet is known to 1 MPa by numbers, 3 MPa by load patches and 3 MPa for resonance, its places to 0.5 MPa
 /// by numbers, a toe to 2 MPa by numbers and 3 MPa by load patches.
 struct AlternatingRow {
-  BodyAnalysis body;
+  Judged body;
 
   explicit AlternatingRow(double amplitude_MPa) {
     const examples::Row row(3);

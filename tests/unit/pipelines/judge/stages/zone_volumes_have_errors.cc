@@ -10,11 +10,11 @@ namespace {
 
 /// Cells 2 x 2 x 2 along z, of which the stress on every layer is given; that of the places is known to a
 /// share.
-BodyAnalysis row(const std::vector<double>& layers, double level_Pa, const std::vector<std::string>& features,
-                 double share) {
+Judged row(const std::vector<double>& layers, double level_Pa, const std::vector<std::string>& features,
+           double share) {
   examples::Row row(int(layers.size() / 2));
   for (std::size_t l = 0; l < layers.size(); ++l) row.layer(l, layers[l]);
-  BodyAnalysis analysis;
+  Judged analysis;
   analysis.responses.nodes = row.nodes;
   analysis.envelope.von_mises = row.envelope;
   analysis.places = row.places();

@@ -14,9 +14,8 @@
 
 #include "fem/model/model.h"
 #include "pipelines/judge/estimates/place_stress.h"
-#include "pipelines/judge/stages/analyse_body.h"
+#include "pipelines/judge/stages/judge_body.h"
 #include "pipelines/judge/stages/shaft_torsion.h"
-#include "pipelines/judge/stages/superpose_body.h"
 #include "pipelines/loads/stage/load_stage.h"
 #include "pipelines/scene/reader/why_not.h"
 #include "pipelines/scene/whole/requested_method.h"
@@ -148,7 +147,7 @@ TEST(AxisymmetricRun, PlacesAreThoseOfTheSolid) {
   const results_test::Directory at;
   const auto meshed = mesh_body(body, {});
   const auto loads = load_bodies(shaft.scene, {meshed}, shaft.clock).body_loads[0];
-  const auto solid = analyse_body(body, meshed, loads, {at / "out", 1, true}, shaft.clock);
+  const auto solid = by_solid(body, meshed, loads, at / "out", shaft.clock);
   const auto own = axisymmetric_stresses(body, meshed, loads, 1).places;
   std::map<std::string, double> of_solid;
   for (const auto& place : largest_by_feature(solid.responses.nodes, solid.envelope.von_mises.value_Pa,
@@ -278,7 +277,7 @@ std::ostream& operator<<(std::ostream& out, const Torsion& t) {
   return out << t.value_Pa / 1e6 << " +- " << t.error_Pa / 1e6 << " MPa, off by " << t.off_Pa / 1e6;
 }
 
-LargestTorsion torsion_of(const BodyAnalysis& analysis) {
+LargestTorsion torsion_of(const Judged& analysis) {
   const auto* ring = largest_torsion_ring(*analysis.diagrams);
   return {ring->max_Pa, ring_error_Pa(analysis, *ring)};
 }
@@ -322,7 +321,7 @@ TEST(AxisymmetricRun, TorsionOfACoarseSolidIsWithinItsError) {
       continue;  // cells of a bad shape
     }
     const auto loads = load_bodies(shaft.scene, {meshed}, shaft.clock).body_loads[0];
-    auto solid = analyse_body(body, meshed, loads, {at / "out", 1, true}, shaft.clock);
+    auto solid = by_solid(body, meshed, loads, at / "out", shaft.clock);
     const auto strict = shaft.stresses(0.001).torsion;
     const Torsion alone(torsion_of(solid), strict);
     solid.diagrams->by_harmonics = axisymmetric_second_model(body, meshed, loads, 0.05, 1)->torsion;

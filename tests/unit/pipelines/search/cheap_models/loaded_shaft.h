@@ -4,7 +4,9 @@
 #include <fstream>
 #include <string>
 
+#include "pipelines/judge/stages/judge_body.h"
 #include "pipelines/loads/stage/load_stage.h"
+#include "pipelines/respond/responses/respond.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
 #include "pipelines/search/cheap_models/axisymmetric_refinement.h"
 #include "pipelines/search/loop/search.h"
@@ -57,6 +59,13 @@ inline Scene scene_of(const std::string& text) {
   return read_scene(at / "scene.toml");
 }
 
+/// A body by its solid mesh as it is.
+inline Judged by_solid(const BodyScene& body, const MeshedBody& meshed, const BodyLoads& loads,
+                       const std::filesystem::path& directory, StageClock& clock) {
+  auto superposed = superpose(respond(body, meshed, loads, {directory, 1, true}, clock), 1, clock);
+  return judge_body(std::move(superposed), meshed, true, 1, clock);
+}
+
 /// A scene's only body, described and loaded.
 struct LoadedShaft {
   Scene scene;
@@ -67,9 +76,9 @@ struct LoadedShaft {
     loaded = load_bodies(scene, {describe_revolved(scene.bodies[0])}, clock);
   }
   const BodyScene& body() const { return scene.bodies[0]; }
-  BodyAnalysis axisymmetric(double tolerance = 0) { return searched(Method::axisymmetric, tolerance); }
-  BodyAnalysis beam() { return searched(Method::beam, 0); }
-  BodyAnalysis searched(Method method, double tolerance) {
+  Judged axisymmetric(double tolerance = 0) { return searched(Method::axisymmetric, tolerance); }
+  Judged beam() { return searched(Method::beam, 0); }
+  Judged searched(Method method, double tolerance) {
     RunOfBody run;
     run.options = {"", 1};
     run.tolerance = tolerance;

@@ -12,7 +12,7 @@ const meshes::ChamberMeshControl& mesh_of(const BodyScene& body) {
 }
 
 /// The weld toes as places, all with an error of that size.
-std::vector<PlaceStress> toes_of(const BodyAnalysis& analysis, double error_Pa) {
+std::vector<PlaceStress> toes_of(const Judged& analysis, double error_Pa) {
   std::vector<PlaceStress> places;
   for (const auto& spot : analysis.hot_spots)
     places.push_back({spot.name, 0, spot.von_mises_Pa, error_Pa, {}});
@@ -29,7 +29,7 @@ TEST(Refine, AChamberWhereItsHotSpotsFeelIt) {
   const std::size_t chamber = 1;
   ASSERT_TRUE(std::holds_alternative<ChamberOptions>(scene.bodies[chamber].options));
   scene.bodies[chamber] = first_meshes(scene.bodies[chamber]).front();
-  BodyAnalysis analysis;
+  Judged analysis;
   analysis.hot_spots.resize(3);
   analysis.hot_spots[0].von_mises_Pa = 40e6;
   analysis.hot_spots[1].von_mises_Pa = 37e6;  // 41 with its error
@@ -74,7 +74,7 @@ TEST(Refine, AChamberWhereItsHotSpotsFeelIt) {
 TEST(Refine, AChambersToesKeepTheirCells) {
   Scene scene = read_scene(std::filesystem::path(SOURCE_DIR) / "pipelines/scenes/vibratory_mill.toml");
   const std::size_t chamber = 1;
-  BodyAnalysis analysis;
+  Judged analysis;
   analysis.hot_spots.resize(2);
   analysis.hot_spots[0].von_mises_Pa = 40e6;
   analysis.hot_spots[0].toe_m = {0.1, 0, 0};
@@ -98,7 +98,7 @@ TEST(Refine, AChambersToesKeepTheirCells) {
 TEST(Refine, AChamberEverywhereWhereASurfaceHoldsTheErrorBack) {
   Scene scene = read_scene(std::filesystem::path(SOURCE_DIR) / "pipelines/scenes/vibratory_mill.toml");
   BodyScene& chamber = scene.bodies[1];
-  BodyAnalysis analysis;
+  Judged analysis;
   analysis.hot_spots.resize(1);
   analysis.hot_spots[0].name = "toe";
   analysis.hot_spots[0].von_mises_Pa = 40e6;

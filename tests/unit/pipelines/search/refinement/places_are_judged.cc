@@ -116,7 +116,7 @@ TEST(Places, MayRiseTowardsTheBorderOfWhatIsLeftOut) {
   examples::Row row(3);
   const auto singular = [](double r) { return 1 / std::sqrt(r); };
   for (std::size_t layer = 0; layer <= 6; ++layer) row.layer(layer, singular(std::max(0.25, double(layer))));
-  BodyAnalysis analysis;
+  Judged analysis;
   analysis.responses.nodes = row.nodes;
   analysis.envelope.von_mises = row.envelope;
   analysis.mesh.features = row.features;
@@ -138,7 +138,7 @@ TEST(Places, MayRiseTowardsTheBorderOfWhatIsLeftOut) {
 // lie at 3, and with less left out at 2, which is no longer beside an edge of 1.
 TEST(Places, KnowHowManyCellsLieWithinWhatIsLeftOut) {
   examples::Row row(3);
-  BodyAnalysis analysis;
+  Judged analysis;
   analysis.responses.nodes = row.nodes;
   analysis.mesh.features = row.features;
   const auto cells = [&](double border_m, double at_m) {

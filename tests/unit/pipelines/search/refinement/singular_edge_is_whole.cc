@@ -124,7 +124,7 @@ TEST(SingularEdge, IsNoneInTheMiddleOfAFace) {
   // Floor, wall, top, and round the body's back: its size is finite, though its ends are open.
   constexpr std::array<std::array<double, 2>, 7> around = {
       {{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, -1}, {0, -1}, {0, 0}}};
-  BodyAnalysis analysis;
+  Judged analysis;
   analysis.responses.nodes = strips(6, 4, [&](int l, double t) {
     const auto &a = around[std::size_t(l / 2)], &b = around[std::size_t((l + 1) / 2)];
     return Point{3 * t, (a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
@@ -141,7 +141,7 @@ TEST(SingularEdge, IsNoneInTheMiddleOfAFace) {
 /// @param fillets  names of features that are fillets
 bool grows_beside(const std::vector<meshes::SharpEdge>& left_out,
                   const std::vector<std::string>& fillets = {}) {
-  BodyAnalysis analysis;
+  Judged analysis;
   analysis.peak.position_m = {0, 0, 1e-3};
   analysis.peak.feature = "fillet a/b";
   for (const auto& name : fillets) analysis.mesh.features.push_back({name, meshes::Feature::Kind::fillet});

@@ -105,7 +105,7 @@ TEST(AccuracyReport, WarnsWhereRunsDisagree) {
 // By hand: three channels of 30 s of solve and 6 s of superposition, one fed by the pull alone, one by the
 // weight alone, one by both.
 TEST(EffectPrices, ShareOutSecondsByTheChannelsOfTheirOwn) {
-  BodyAnalysis analysis;
+  Judged analysis;
   auto& history = analysis.loads.history;
   history.effects = {"weight", "pull", "idle"};
   history.values = Eigen::ArrayXXd::Ones(3, 2);

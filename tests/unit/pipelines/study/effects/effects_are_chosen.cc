@@ -6,7 +6,7 @@
 #include <fstream>
 #include <set>
 
-#include "pipelines/judge/analysis/body_analysis.h"
+#include "pipelines/judge/analysis/judged.h"
 #include "pipelines/search/effect_choice/effect_bounds.h"
 #include "pipelines/search/effect_choice/effect_choice.h"
 #include "tests/unit/pipelines/examples/bodies.h"
@@ -202,7 +202,7 @@ TEST(EffectChoice, NothingIsLeftWithoutWhatItNeeds) {
 TEST(EffectChoice, WhatTurnsOutToMatterComesBack) {
   Scene scene;
   scene.effect_choice.dropped = {{"a", 0}, {"b", 0}};
-  BodyAnalysis analysis;
+  Judged analysis;
   analysis.peak.value_Pa = 1000;
   analysis.dropped = DroppedBounds{{{"a", 3, 0}, {"b", 5, 0}}, {"", 7, 0}};
   scene.effect_choice.limit = 0.01;

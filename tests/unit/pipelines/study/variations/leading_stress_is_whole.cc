@@ -59,8 +59,8 @@ sectors = 8
 )";
 
 /// At half of the peak and at nine tenths.
-void expect_same_zones(const BodyAnalysis& analysis, const LeadingStress& leading,
-                       const ChannelHistory& loads, const Envelope& whole, const Envelope& some) {
+void expect_same_zones(const Judged& analysis, const LeadingStress& leading, const ChannelHistory& loads,
+                       const Envelope& whole, const Envelope& some) {
   const auto& nodes = analysis.responses.nodes;
   const double peak_Pa = whole.von_mises.value_Pa[peak_node(whole.von_mises.value_Pa, analysis.places)];
   for (const double share : {0.5, 0.9}) {

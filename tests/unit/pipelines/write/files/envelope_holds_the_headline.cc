@@ -48,7 +48,7 @@ double moved_m(double z, int d) {
 struct Case {
   Scene scene;
   kinetics::LoadHistory loads;
-  BodyAnalysis analysis;
+  Judged analysis;
 
   Case() {
     auto& a = analysis;

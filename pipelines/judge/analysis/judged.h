@@ -1,16 +1,12 @@
-/// What is known of a body once it is analysed.
+/// What the stage `judge` knows of a body: where it is stressed most, by how much, and what of that is
+/// certain.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
-#include "kinetics/values/load_history.h"
-#include "meshes/values/body_mesh.h"
-#include "pipelines/base/common/stage_clock.h"
 #include "pipelines/judge/estimates/error_budget.h"
 #include "pipelines/judge/estimates/hot_spots.h"
 #include "pipelines/judge/estimates/place_stress.h"
@@ -18,14 +14,7 @@
 #include "pipelines/judge/figures/diagrams.h"
 #include "pipelines/judge/figures/vibration.h"
 #include "pipelines/judge/figures/zone_causes.h"
-#include "pipelines/loads/channels/closure.h"
-#include "pipelines/loads/stage/body_loads.h"
-#include "pipelines/loads/stage/body_mesh.h"
-#include "pipelines/loads/stage/machine_masses.h"
-#include "pipelines/scene/values/method.h"
-#include "pipelines/scene/whole/scene.h"
-#include "pipelines/superpose/envelope/superposition.h"
-#include "pipelines/superpose/envelope/zones.h"
+#include "pipelines/superpose/envelope/superposed.h"
 
 namespace pipelines {
 
@@ -59,20 +48,7 @@ struct DroppedBounds {
 struct BodyFatigue;
 struct StartUpStress;
 
-struct BodyAnalysis {
-  BodyScene scene;
-  Method method = Method::solid;  ///< the model that the responses are of
-  meshes::BodyMesh mesh;
-  fem::MassProperties masses;
-  fem::GeometryError geometry_error;
-  BodyLoads loads;
-  fem::UnitResponses responses;
-  bool responses_reused = false;      ///< taken from an earlier run
-  std::vector<std::string> warnings;  ///< of damaged files that an earlier run has left
-  double solve_s = 0;                 ///< wall time; 0: taken from before
-  Closure closure;
-  NodePlaces places;
-  Envelope envelope;
+struct Judged : Superposed {
   Zones zones;
   std::vector<ZoneCauses> zone_causes;      ///< of the zones, in their order
   Peak peak;                                ///< largest von Mises stress outside the exclusion distances
@@ -88,20 +64,13 @@ struct BodyAnalysis {
   std::optional<DroppedBounds> dropped;           ///< where effects = "auto" has dropped any
 
   // In the .cc file: else every file that copies one compiles the copies of all members anew.
-  BodyAnalysis();
-  BodyAnalysis(const BodyAnalysis&);
-  BodyAnalysis(BodyAnalysis&&) noexcept;
-  BodyAnalysis& operator=(const BodyAnalysis&);
-  BodyAnalysis& operator=(BodyAnalysis&&) noexcept;
-  ~BodyAnalysis();
-};
-
-/// Where a run keeps its files and what it may use.
-struct RunOptions {
-  std::filesystem::path directory;  ///< of this body
-  int n_threads = 0;                ///< 0: all cores
-  bool fresh = false;               ///< do not reuse unit responses of an earlier run
-  bool keep_factor = false;         ///< a search refines locally: for its goals, and instead of submodels
+  Judged();
+  explicit Judged(Superposed superposed);
+  Judged(const Judged&);
+  Judged(Judged&&) noexcept;
+  Judged& operator=(const Judged&);
+  Judged& operator=(Judged&&) noexcept;
+  ~Judged();
 };
 
 }  // namespace pipelines

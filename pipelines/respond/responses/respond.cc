@@ -1,6 +1,7 @@
-#include "pipelines/judge/stages/respond.h"
+#include "pipelines/respond/responses/respond.h"
 
 #include <algorithm>
+#include <chrono>
 #include <thread>
 
 #include "pipelines/base/common/several_ranks.h"
@@ -42,16 +43,20 @@ int threads(int wanted) {
 
 /// The seconds of factorising depend on what a run before has left; results do not: where the iteration gives
 /// up, the direct solver takes over, and it is the direct solver from the start in the next run.
-Answer respond(const BodyScene& body, const MeshedBody& meshed, const BodyLoads& loads,
-               const RunOptions& options, StageClock& clock) {
+Responded respond(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads, const RunOptions& options,
+                  StageClock& clock) {
+  const auto start = std::chrono::steady_clock::now();
   const auto planes = to_fem_planes(meshed.mesh.sections);
   const auto key = key_of(meshed, loads, planes, body.solver, threads(options.n_threads));
   std::vector<std::string> warnings;
   const auto tell = [&](const std::string& line) { warnings.push_back(line); };
   if (!options.fresh)
     if (auto kept =
-            clock.run("solve", [&] { return read_unit_responses(kept_responses(options), key, tell); }))
-      return {std::move(*kept), true, {}};
+            clock.run("solve", [&] { return read_unit_responses(kept_responses(options), key, tell); })) {
+      auto result = responded(body, meshed, std::move(loads), std::move(*kept));
+      result.responses_reused = true;
+      return result;
+    }
   auto responses = clock.run("solve", [&] {
     fem::SolverChoice choice;
     choice.solver = body.solver;
@@ -64,27 +69,31 @@ Answer respond(const BodyScene& body, const MeshedBody& meshed, const BodyLoads&
         [&](double share, const std::string& step) { clock.advance(share, step); }, choice);
   });
   remember_iteration(options.directory, body_key(meshed.body), responses.solver.gave_up);
-  return {std::move(responses), false, std::move(warnings)};
+  const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
+  auto result = responded(body, meshed, std::move(loads), std::move(responses));
+  result.warnings = std::move(warnings);
+  result.solve_s = solve.count();
+  return result;
 }
 
-std::string keep_responses(const BodyScene& body, const MeshedBody& meshed, const BodyAnalysis& analysis,
+std::string keep_responses(const BodyScene& body, const MeshedBody& meshed, const Responded& responded,
                            const RunOptions& options, StageClock& clock) {
-  const auto key = key_of(meshed, analysis.loads, to_fem_planes(meshed.mesh.sections), body.solver,
+  const auto key = key_of(meshed, responded.loads, to_fem_planes(meshed.mesh.sections), body.solver,
                           threads(options.n_threads));
-  if (!analysis.responses_reused)
-    clock.run("write", [&] { write_unit_responses(kept_responses(options), key, analysis.responses); });
+  if (!responded.responses_reused)
+    clock.run("write", [&] { write_unit_responses(kept_responses(options), key, responded.responses); });
   return text_hash(key);
 }
 
-std::string keep_harmonics(const BodyAnalysis& analysis, const RunOptions& options, StageClock& clock) {
-  const auto& responses = analysis.responses;
+std::string keep_harmonics(const Responded& responded, const RunOptions& options, StageClock& clock) {
+  const auto& responses = responded.responses;
   auto key = "harmonics around the axis\nprogram " + program_fingerprint() + '\n';
   for (const auto& channel : responses.channels) key += channel + '\n';
   for (const auto* values : {&responses.nodes.xyz_m, &responses.stress_Pa, &responses.displacement_m})
     key += text_hash({reinterpret_cast<const char*>(values->data()), sizeof(double) * values->size()}) + '\n';
   clock.run("write", [&] {
     if (!is_first_rank()) return;
-    write_unit_responses(options.directory / kept_responses_name(analysis.method), key, responses);
+    write_unit_responses(options.directory / kept_responses_name(responded.method), key, responses);
   });
   return text_hash(key);
 }

@@ -1,4 +1,4 @@
-#include "pipelines/judge/stages/superpose_body.h"
+#include "pipelines/judge/stages/judge_body.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,8 +8,8 @@
 #include "pipelines/judge/analysis/load_patch.h"
 #include "pipelines/judge/estimates/submodels.h"
 #include "pipelines/judge/stages/place_errors.h"
-#include "pipelines/judge/stages/respond.h"
 #include "pipelines/judge/stages/zone_volume_errors.h"
+#include "pipelines/respond/responses/respond.h"
 #include "pipelines/scene/whole/body_kind.h"
 #include "pipelines/superpose/envelope/finite_stress.h"
 #include "pipelines/superpose/envelope/stress_shares.h"
@@ -18,15 +18,7 @@
 namespace pipelines {
 namespace {
 
-/// The ports that a mill's charge presses on.
-std::vector<std::string> walls_under_charge(const BodyAnalysis& analysis) {
-  std::vector<std::string> walls;
-  for (const auto& port : analysis.mesh.ports)
-    if (usual_pressure(analysis.scene, port.name).is_charge) walls.push_back(port.name);
-  return walls;
-}
-
-Peak headline(const BodyAnalysis& analysis) {
+Peak headline(const Judged& analysis) {
   const auto& maximum = analysis.envelope.von_mises;
   Peak peak;
   peak.node = peak_node(maximum.value_Pa, analysis.places);
@@ -45,7 +37,7 @@ Peak headline(const BodyAnalysis& analysis) {
 }
 
 /// Of the weld toe with the largest stress, which may govern.
-void estimate_error_of_largest_toe(BodyAnalysis& analysis) {
+void estimate_error_of_largest_toe(Judged& analysis) {
   if (analysis.hot_spots.empty()) return;
   auto& largest = analysis.hot_spots.front();
   analysis.hot_spot_errors = errors_at(stress_point(largest), analysis);
@@ -54,7 +46,7 @@ void estimate_error_of_largest_toe(BodyAnalysis& analysis) {
 
 /// Of the first zones, those that are shown, and of the other weld toes.
 /// @param judged  places whose errors count instead
-void estimate_errors_shown(BodyAnalysis& analysis, const std::vector<PlaceStress>& judged) {
+void estimate_errors_shown(Judged& analysis, const std::vector<PlaceStress>& judged) {
   const auto is_judged = [&](const std::string& feature) {
     return std::any_of(judged.begin(), judged.end(), [&](const PlaceStress& place) {
       return place.feature == feature && place.value_Pa > 0;
@@ -76,7 +68,7 @@ bool has_cells(const fem::UnitResponses& responses) {
 }
 
 /// Of the body's envelope and peak.
-Zones zones_of(const BodyAnalysis& analysis, const ZoneRule& rule) {
+Zones zones_of(const Judged& analysis, const ZoneRule& rule) {
   const double yield_Pa = analysis.scene.yield_strength_Pa;
   return find_zones(analysis.responses.nodes, analysis.envelope.von_mises, analysis.places,
                     zone_level_Pa(rule, analysis.peak.value_Pa, yield_Pa), yield_Pa);
@@ -88,67 +80,48 @@ double zone_level_Pa(const ZoneRule& rule, double peak_Pa, double yield_Pa) {
   return rule.share * (rule.reference == ZoneRule::Reference::peak ? peak_Pa : yield_Pa);
 }
 
-BodyAnalysis superpose_again(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
-                             BodyAnalysis& before, bool needs_submodels, int n_threads, StageClock& clock) {
-  KnownBefore known{{}, std::move(before.hot_spots), needs_submodels};
-  if (have_same_values(before.loads.history, loads.history)) known.envelope = std::move(before.envelope);
-  auto after = superpose_body(body, meshed, std::move(loads), std::move(before.responses), n_threads, clock,
-                              std::move(known));
-  after.responses_reused = before.responses_reused;
-  after.warnings = std::move(before.warnings);
-  after.solve_s = before.solve_s;
-  return after;
+Judged judge_again(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads, Judged& before,
+                   bool needs_submodels, int n_threads, StageClock& clock) {
+  std::optional<Envelope> known;
+  if (have_same_values(before.loads.history, loads.history)) known = std::move(before.envelope);
+  auto again = responded(body, meshed, std::move(loads), std::move(before.responses));
+  again.method = before.method;
+  again.responses_reused = before.responses_reused;
+  again.warnings = std::move(before.warnings);
+  again.solve_s = before.solve_s;
+  auto superposed = superpose(std::move(again), threads(n_threads), clock, std::move(known));
+  return judge_body(std::move(superposed), meshed, needs_submodels, n_threads, clock, before.hot_spots);
 }
 
-BodyAnalysis superpose_body(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
-                            fem::UnitResponses responses, int n_threads, StageClock& clock,
-                            KnownBefore known) {
-  const ShaftShape* shaft = body.shaft();
-  BodyAnalysis analysis;
-  analysis.scene = body;
-  analysis.mesh = meshed.mesh;
-  analysis.masses = meshed.masses;
-  analysis.geometry_error = meshed.geometry_error;
-  analysis.loads = std::move(loads);
-  analysis.responses = std::move(responses);
-  require_finite(analysis.responses);
-  analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
-  require_closure(body.name, analysis.closure);
-
-  clock.run("superpose", [&] {
-    if (known.envelope)
-      analysis.envelope = std::move(*known.envelope);
-    else
-      analysis.envelope = envelope(analysis.loads.history, analysis.responses, threads(n_threads));
-  });
-  require_finite(body.name, analysis.envelope);
+Judged judge_body(Superposed superposed, const MeshedBody& meshed, bool needs_submodels, int n_threads,
+                  StageClock& clock, const std::vector<HotSpotStress>& known) {
+  Judged judged(std::move(superposed));
   clock.run("zones", [&] {
-    analysis.places = locate_nodes(analysis.responses.nodes, analysis.mesh.features, analysis.mesh.ports,
-                                   analysis.mesh.sharp_edges, walls_under_charge(analysis));
-    analysis.peak = headline(analysis);
-    analysis.principal_node = peak_node(analysis.envelope.principal.value_Pa, analysis.places);
-    analysis.hot_spots = hot_spot_stresses(meshed.mesh.hot_spots, analysis.responses, analysis.loads.history);
+    judged.peak = headline(judged);
+    judged.principal_node = peak_node(judged.envelope.principal.value_Pa, judged.places);
+    judged.hot_spots = hot_spot_stresses(judged.mesh.hot_spots, judged.responses, judged.loads.history);
   });
-  if (known.needs_submodels && !analysis.hot_spots.empty() && has_cells(analysis.responses))
+  if (needs_submodels && !judged.hot_spots.empty() && has_cells(judged.responses))
     clock.run("submodels", [&] {
-      resolve_hot_spots(meshed.mesh.hot_spots, analysis.responses, meshed.body, analysis.loads,
-                        analysis.hot_spots, known.hot_spots);
+      resolve_hot_spots(judged.mesh.hot_spots, judged.responses, meshed.body, judged.loads, judged.hot_spots,
+                        known);
     });
-  clock.run("zones", [&] { estimate_error_of_largest_toe(analysis); });
+  clock.run("zones", [&] { estimate_error_of_largest_toe(judged); });
   clock.run("superpose", [&] {
-    add_crest_elsewhere(analysis, threads(n_threads));
-    add_load_patch_error(analysis);
-    add_load_edge_error(analysis);
+    add_crest_elsewhere(judged, threads(n_threads));
+    add_load_patch_error(judged);
+    add_load_edge_error(judged);
   });
-  if (shaft != nullptr && meshed.mesh.sections.size() > 1)
-    analysis.diagrams = clock.run("sections", [&] {
-      return section_diagrams(analysis.loads, analysis.responses, analysis.mesh, shaft->geometry,
+  const auto& body = judged.scene;
+  if (const ShaftShape* shaft = body.shaft(); shaft != nullptr && judged.mesh.sections.size() > 1)
+    judged.diagrams = clock.run("sections", [&] {
+      return section_diagrams(judged.loads, judged.responses, judged.mesh, shaft->geometry,
                               body.material.density_kg_m3, kind_of(body).supporting_ports(body));
     });
-  return analysis;
+  return judged;
 }
 
-void add_zones(const ZoneRule& rule, BodyAnalysis& analysis) {
+void add_zones(const ZoneRule& rule, Judged& analysis) {
   analysis.zones = divided(zones_of(analysis, rule), analysis.responses.nodes, analysis.envelope.von_mises,
                            analysis.places);
   if (analysis.method == Method::beam)  // its cells span from the surface to the axis
@@ -159,8 +132,8 @@ void add_zones(const ZoneRule& rule, BodyAnalysis& analysis) {
   estimate_volume_errors(analysis);
 }
 
-BodyAnalysis under_other_loads(BodyAnalysis analysis, const MeshedBody& meshed, BodyLoads loads,
-                               Envelope leading, const ZoneRule* zones) {
+Judged under_other_loads(Judged analysis, const MeshedBody& meshed, BodyLoads loads, Envelope leading,
+                         const ZoneRule* zones) {
   analysis.loads = std::move(loads);
   analysis.closure = check_closure(analysis.loads, analysis.responses.resultants, meshed.regions);
   require_closure(analysis.scene.name, analysis.closure);

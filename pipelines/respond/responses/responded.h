@@ -1,0 +1,49 @@
+/// What the stage `respond` knows of a body: its mesh, its loads, and the unit responses to them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fem/values/unit_responses.h"
+#include "meshes/values/body_mesh.h"
+#include "pipelines/loads/stage/body_loads.h"
+#include "pipelines/scene/values/method.h"
+
+namespace pipelines {
+
+/// Where a run keeps the files of a body and what it may use.
+struct RunOptions {
+  std::filesystem::path directory;  ///< of this body
+  int n_threads = 0;                ///< 0: all cores
+  bool fresh = false;               ///< do not reuse unit responses of an earlier run
+  bool keep_factor = false;         ///< a search refines locally: for its goals, and instead of submodels
+};
+
+struct Responded {
+  BodyScene scene;
+  Method method = Method::solid;  ///< the model that the responses are of
+  meshes::BodyMesh mesh;
+  std::vector<RegionMass> regions;  ///< of the mesh
+  fem::MassProperties masses;
+  fem::GeometryError geometry_error;
+  BodyLoads loads;
+  fem::UnitResponses responses;
+  bool responses_reused = false;      ///< taken from an earlier run
+  std::vector<std::string> warnings;  ///< of damaged files that an earlier run has left
+  double solve_s = 0;                 ///< wall time; 0: taken from before
+
+  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  Responded();
+  Responded(const Responded&);
+  Responded(Responded&&) noexcept;
+  Responded& operator=(const Responded&);
+  Responded& operator=(Responded&&) noexcept;
+  ~Responded();
+};
+
+/// A body with unit responses that a model has found.
+Responded responded(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
+                    fem::UnitResponses responses);
+
+}  // namespace pipelines
