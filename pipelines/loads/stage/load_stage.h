@@ -29,7 +29,7 @@ struct LoadedScene {
   std::vector<BodyLoads> body_loads;
   std::vector<BearingResult> bearings;
 
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
   LoadedScene();
   LoadedScene(const LoadedScene&);
   LoadedScene(LoadedScene&&) noexcept;
