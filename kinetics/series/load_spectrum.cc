@@ -76,7 +76,7 @@ std::vector<Point> turning_points_of(const Eigen::ArrayXd& series) {
   return points;
 }
 
-/// Of a period that repeats, from one largest value to the next.
+/// Cycles of a period that repeats, counted from one largest value to the next.
 std::vector<Counted> count_repeating(const Eigen::ArrayXd& period, double alike) {
   require_series(period);
   Eigen::Index top = 0;

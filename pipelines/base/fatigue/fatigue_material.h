@@ -49,7 +49,7 @@ struct GroupConstants {
   std::optional<double> second_slope_normal, second_slope_shear;
 };
 
-/// All groups, in the order of the enumeration.
+/// Constants of all groups, in the order of the enumeration.
 const std::vector<GroupConstants>& material_groups();
 
 const GroupConstants& constants_of(MaterialGroup group);

@@ -92,7 +92,7 @@ double equivalent_reversed_amplitude_Pa(const CyclicStress& stress, double sensi
 struct EquivalentAmplitudeSlopes {
   double by_amplitude = 1, by_mean = 0;
 };
-/// On a border those of the field that haigh_field names.
+/// Slopes of the equivalent amplitude; on a border those of the field that haigh_field names.
 EquivalentAmplitudeSlopes equivalent_amplitude_slopes(const CyclicStress& stress, double sensitivity);
 
 }  // namespace pipelines

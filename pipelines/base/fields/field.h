@@ -25,7 +25,7 @@ struct Field {
   /// What people read of a row of summary.json; empty: the value by its quantity.
   std::function<std::string(const summary::Json& row)> shown;
 
-  /// "amplitude_Pa"
+  /// The key with its unit: "amplitude_Pa".
   std::string json_key() const { return key + quantity.suffix; }
 };
 
@@ -57,19 +57,19 @@ struct FieldOf : Field {
     field.is_detail = true;
     return field;
   }
-  /// With other digits than the quantity's.
+  /// The field with other digits than the quantity's.
   FieldOf digits(const char* format) const {
     auto field = *this;
     field.quantity.format = format;
     return field;
   }
-  /// With a text made of the whole row, such as "8 h (3 to 27)".
+  /// The field with a text made of the whole row, such as "8 h (3 to 27)".
   FieldOf shown_as(std::function<std::string(const summary::Json& row)> text) const {
     auto field = *this;
     field.shown = std::move(text);
     return field;
   }
-  /// Under another title in CSV; of effects and blocks, before their names.
+  /// The field under another title in CSV; of effects and blocks, before their names.
   FieldOf in_column(std::string title) const {
     auto field = *this;
     field.column = std::move(title);
@@ -87,7 +87,8 @@ struct FieldOf : Field {
     field.is_in_summary = false;
     return field;
   }
-  /// Where there is none, summary.json has no key; where no row has one, people see no column.
+  /// The field that may have no value: then summary.json has no key; where no row has one, people see no
+  /// column.
   FieldOf optional() const {
     auto field = *this;
     field.is_optional = true;
@@ -118,7 +119,7 @@ FieldTable<Row> fields_of_part(const FieldTable<Part>& fields, const Of& of) {
   return taken;
 }
 
-/// Of a result that has no CSV file.
+/// The fields of a result that has no CSV file.
 template <typename Row>
 FieldTable<Row> without_csv(FieldTable<Row> fields) {
   for (auto& field : fields) field.is_in_csv = false;
@@ -129,7 +130,7 @@ FieldTable<Row> without_csv(FieldTable<Row> fields) {
 /// versions.
 const summary::Json& value_of(const summary::Json& row, const Field& field);
 
-/// Puts a value there.
+/// Puts a value where the field stands in a row.
 void set_value(summary::Json& row, const Field& field, summary::Json value);
 
 /// A row with all fields, also those that summary.json leaves to CSV.

@@ -17,7 +17,7 @@ using summary::Json;
 const std::array<std::string, 3> axes{"x", "y", "z"};
 const std::array<std::string, 6> components{"xx", "yy", "zz", "xy", "yz", "xz"};
 
-/// "safety_by", "findley"
+/// Parts of a key between its dots: "safety_by", "findley".
 std::vector<std::string> parts_of(const std::string& key) {
   std::vector<std::string> parts{""};
   for (const char c : key)
@@ -38,7 +38,7 @@ std::string number_cell(const Json& value, double one) {
   return number.is_number() ? fmt::format("{:.15g}", number.get<double>() / one) : std::string();
 }
 
-/// As a drive angle over all turns, in degrees.
+/// A moment as a drive angle over all turns, in degrees.
 std::string moment_cell(const Json& value) {
   if (!value.is_object()) return "";
   return fmt::format("{:.15g}", 360 * (value.at("turn").get<double>() - 1) +
@@ -85,7 +85,7 @@ std::vector<std::string> with_prefix(const std::string& prefix, const Names& nam
   return titles;
 }
 
-/// Of all rows, in the order in which they come.
+/// Names of the shares of all rows, in the order in which they come.
 std::vector<std::string> names_of_shares(const Field& field, const Json& rows) {
   std::vector<std::string> names;
   for (const auto& row : rows)

@@ -37,14 +37,14 @@ ShownRows shown_named_rows(const std::string& title, const std::vector<Field>& f
 /// The second table: the first labelled field and the details; no cells without details.
 ShownRows shown_details(const std::vector<Field>& fields, const summary::Json& rows, std::size_t most);
 
-/// On a terminal: texts to the left, numbers to the right; nothing without rows.
+/// Prints rows on a terminal: texts to the left, numbers to the right; nothing without rows.
 /// @param title  over the first column, in place of its own
 /// @param notes  lines below each row; none: no lines
 void print_rows(std::ostream& out, const std::string& title, const ShownRows& rows,
                 const std::vector<std::vector<std::string>>& notes = {});
 
-/// For a README: a line of each field with column and unit in CSV, key of summary.json, title in tables for
-/// people, and meaning.
+/// Table for a README: a line of each field with column and unit in CSV, key of summary.json, title in tables
+/// for people, and meaning.
 std::string markdown_table(const std::vector<Field>& fields);
 
 }  // namespace pipelines

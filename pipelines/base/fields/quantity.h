@@ -22,10 +22,10 @@ enum class Shape {
 /// SI values stand in summary.json, one unit of `one` each in what people read.
 struct Quantity {
   Shape shape;
-  const char* suffix;  ///< of the key in summary.json, "_Pa"
-  const char* unit;    ///< that people read; empty: none
-  double one;          ///< one of these units in that of summary.json
-  const char* format;  ///< fmt's, of the number that people read
+  const char* suffix;  ///< end of the key in summary.json, "_Pa"
+  const char* unit;    ///< unit that people read; empty: none
+  double one;          ///< size of one such unit in the unit of summary.json
+  const char* format;  ///< fmt's format of the number that people read
 };
 
 /// The same as {"value", "unit"} in summary.json (summary::figure), its key without a unit.

@@ -38,7 +38,7 @@ bool have_same_figures(const SweepRow& a, const SweepRow& b) {
                     });
 }
 
-/// As one word of a shell's command line.
+/// The text as one word of a shell's command line.
 std::string quoted(const std::string& text) {
   if (text.find_first_of("\"$`\\!") == std::string::npos) return '"' + text + '"';
   std::string word = "'";
@@ -100,7 +100,7 @@ std::vector<std::string> shown_figures(const std::vector<std::string>& named,
 std::vector<std::string> keys_without_effect(const SweepPlan& plan, const std::vector<SweepRow>& rows) {
   std::vector<std::string> keys;
   for (std::size_t v = 0; v < plan.variations.size(); ++v) {
-    std::map<std::vector<std::string>, std::size_t> first;  // of the points with the same other values
+    std::map<std::vector<std::string>, std::size_t> first;  // first of the points with the same other values
     bool is_compared = false, is_same = true;
     for (std::size_t p = 0; p < rows.size() && is_same; ++p) {
       auto others = plan.points[p].values;

@@ -32,7 +32,7 @@ std::string life_of_row(const summary::Json& row);
 /// The same of a row of summary.json, by its two keys.
 std::string safety_of_row(const summary::Json& row, const char* safety, const char* least);
 
-/// Of a life in seconds, h; null: endures.
+/// A life in seconds as h; null: endures.
 summary::Json hours_json(const std::optional<double>& life_s);
 
 /// least_safety for summary.json; null: not known, or nothing changes.
@@ -45,8 +45,8 @@ summary::Json life_range_json(const LifeCertainty& certainty);
 summary::Json beyond_json(const LifeCertainty& certainty);
 
 /// The fields that every life has: hours, what its error leaves of them, and why there may be none.
-/// @param life_s     of a row: none, it endures
-/// @param certainty  of a row
+/// @param life_s     life of a row; none: it endures
+/// @param certainty  certainty of that life
 template <typename Row, typename Life, typename Certainty>
 FieldTable<Row> life_fields(const Life& life_s, const Certainty& certainty) {
   return {

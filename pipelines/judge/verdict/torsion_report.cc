@@ -29,7 +29,7 @@ void require_finite(const kinetics::PublishedTables& tables) {
   }
 }
 
-/// With which amplitude a frequency turns up in the elements' torques, over their largest.
+/// Amplitude with which a frequency turns up in the elements' torques, over their largest.
 double torque_share(const kinetics::ForcedResponse& forced, const std::vector<ElementTorque>& torques,
                     double frequency_rad_s) {
   constexpr double same = 1e-9;

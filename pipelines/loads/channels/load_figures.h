@@ -31,13 +31,13 @@ struct LoadFigure {
   double first = 0;  ///< at the first instant
 };
 
-/// Of a series at the instants alone.
+/// Figure of a series by its instants alone.
 LoadFigure figure_of(const std::string& name, const std::string& unit, const Eigen::ArrayXd& values,
                      const Eigen::ArrayXd& time_s);
 
 /// Quantities that have statistics; of machines whose loads are samples, what is given at their ports too.
 /// @param scene  with the masses that it leaves to a mesh
-/// @param loads  of its load stage, in the scene's turns
+/// @param loads  loads of its load stage, in the scene's turns
 std::vector<LoadFigure> load_figures(const Scene& scene, const kinetics::LoadHistory& loads);
 
 /// Puts extremes, mean and RMS over the whole course in the place of those of the instants.

@@ -71,7 +71,7 @@ void write_extremes(const path& file, const std::vector<StatisticsSeries>& all,
   rows.write(file, {"max", "min", "mean", "rms", "time_of_max", "time_of_min"}, {"", "", "", "", "s", "s"});
 }
 
-/// In (-pi, pi].
+/// The angle in (-pi, pi].
 double wrapped(double angle_rad) {
   const double rest = std::remainder(angle_rad, 2 * pi);
   return rest > -pi ? rest : pi;

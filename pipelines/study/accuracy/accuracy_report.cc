@@ -121,7 +121,7 @@ Effectivities effectivities(const AccuracyStudy& study) {
   return result;
 }
 
-/// Where `run --tolerance` ends: the first step of the refined mesh whose own estimate is within it.
+/// Tells where `run --tolerance` ends: the first step of the refined mesh whose own estimate is within it.
 std::string where_tolerances_end(const AccuracyStudy& study) {
   std::string text;
   for (const double tolerance : {0.05, 0.02, 0.01}) {

@@ -17,10 +17,10 @@ namespace pipelines {
 struct BodyEffect {
   std::string body;
   kinetics::EffectInfo effect;
-  std::vector<std::string>
-      forces;  ///< "240 N across, at rest, on pulley_seat"; none: the mesh tells its size
-  std::vector<LoadShare>
-      shares;  ///< of all such forces on the port: "<body>/<port>.force", "<body>/<port>.fz"
+  /// "240 N across, at rest, on pulley_seat"; none: the mesh tells its size.
+  std::vector<std::string> forces;
+  /// Shares of all such forces on the port: "<body>/<port>.force", "<body>/<port>.fz".
+  std::vector<LoadShare> shares;
 };
 
 /// Effects of the scene's bodies that are on, in the order of their tables. A force at rest and one that

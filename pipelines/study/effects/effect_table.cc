@@ -62,7 +62,7 @@ void print_all(std::ostream& out, const EffectReport& report) {
   out << "\n  all effects: " << nanoseconds(report.per_instant) << '\n';
 }
 
-/// As people read it: no exponents, and nothing of round-off.
+/// Percentage as people read it: no exponents, and nothing of round-off.
 std::string short_percent(double share) {
   constexpr double least = 1e-4;
   if (!std::isfinite(share)) return "-";

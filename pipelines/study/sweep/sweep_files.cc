@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Of all rows, one value per point, in the order in which figures appear.
+/// A figure of all rows, one value per point.
 struct FigureColumn {
   std::string name, unit;
   std::vector<double> values;
@@ -64,7 +64,7 @@ std::vector<std::string> refusals(const std::vector<SweepRow>& rows) {
   return texts;
 }
 
-/// Of the points, numbers where all that the key takes are numbers.
+/// Whether the k-th key takes numbers alone, and so do all points.
 bool is_numeric(const SweepPlan& plan, std::size_t k) {
   return plan.variations[k].is_numeric() &&
          std::all_of(plan.points.begin(), plan.points.end(),

@@ -109,7 +109,7 @@ struct RowLine {
   std::vector<SweptZone> zones;
 };
 
-/// None of any other line.
+/// The parts of a row's line; none of any other line.
 std::optional<RowLine> row_line(std::string_view text) {
   RowLine line;
   const auto end = text.data() + text.size();

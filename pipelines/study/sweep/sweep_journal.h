@@ -26,7 +26,7 @@ namespace pipelines {
 
 class SweepJournal {
 public:
-  /// @param key  of all that the rows depend on beside their settings
+  /// @param key  key of all that the rows depend on beside their settings
   SweepJournal(std::filesystem::path file, std::string key);
 
   /// Whether a sweep has written a file.
@@ -50,11 +50,11 @@ public:
   static std::vector<std::optional<SweepRow>> rows_of(const std::string& lines, const SweepPlan& plan);
 
 private:
-  /// What rows have.
+  /// Figures and texts that rows have.
   struct Columns {
     std::vector<std::pair<std::string, std::string>> figures;  ///< names and units
     std::vector<std::string> texts;                            ///< names
-    SweepFigures latest{};  ///< of a row that had them: most rows share its names
+    SweepFigures latest{};  ///< figures of a row that had them: most rows share its names
 
     bool are_of(const SweepRow& row) const;
   };

@@ -24,7 +24,7 @@ public:
   void verdict(const std::string& judgement, const std::string& text);
   /// What `add` adds, behind a line that opens it; nothing if it adds nothing.
   void folded(const std::string& title, const std::function<void()>& add);
-  /// As it stands, in letters of one width.
+  /// Adds a text as it stands, in letters of one width.
   void preformatted(const std::string& text);
   /// Cells that begin with a digit or sign and have no words stand to the right. Rows without cells are left
   /// out.

@@ -57,7 +57,7 @@ Json by_block(const DutyPlaceRow& r) {
   return blocks;
 }
 
-/// By "<block>.running", and "<block>.starts" where a block has some.
+/// Damage by "<block>.running", and by "<block>.starts" where a block has some.
 Json damage_of_blocks(const DutyPlaceRow& r) {
   Json damage = Json::object();
   for (std::size_t b = 0; b < r.place.blocks.size(); ++b) {

@@ -115,13 +115,13 @@ std::string place_of_start(const Json& row) {
          (safety.is_number() ? ", safety against yield " + fixed(safety.get<double>(), 2) : "");
 }
 
-/// With the unit that people read, "12.5 N m".
+/// Figure of a start with the unit that people read, "12.5 N m".
 std::string figure_of_start(const Json& row, const char* key) {
   const auto shown = shown_unit(row.at("unit").get<std::string>());
   return fmt::format("{:.4g} {}", row.at(key).get<double>() / shown.one, shown.unit);
 }
 
-/// Likewise, with the error where there is one, "105.2 +- 3.4 MPa".
+/// Largest of a start with its unit, and the error where there is one, "105.2 +- 3.4 MPa".
 std::string largest_of_start(const Json& row) {
   if (!row.contains("error")) return figure_of_start(row, "value");
   const auto& error = row.at("error");

@@ -52,14 +52,14 @@ FieldOf<Row> beside_error(FieldOf<Row> field, const std::string& label, const ch
       });
 }
 
-/// "turn 4, 30 deg"
+/// The moment of a row, "turn 4, 30 deg".
 std::string moment_of_row(const Json& row) {
   const auto &turn = item_of(row, "turn"), &angle_rad = item_of(row, "drive_angle_rad");
   if (!turn.is_number() || !angle_rad.is_number()) return "-";
   return fmt::format("turn {}, {:.0f} deg", turn.get<int>(), angle_rad.get<double>() * 180 / pi);
 }
 
-/// Of rows with an instant.
+/// Fields of the moment for rows with an instant.
 template <typename Row>
 FieldTable<Row> moment_fields() {
   const auto moment = [](const Row& r) { return moment_of(r.body.scene, r.body.loads, r.item.instant); };
@@ -84,7 +84,7 @@ Json shares_json(const ChannelHistory& loads, const StressShares& shares) {
   return json;
 }
 
-/// Of a zone on the surface, where fatigue is asked for; shares where something changes.
+/// Damage of a zone on the surface, where fatigue is asked for; shares where something changes.
 Json damage_json(const ChannelHistory& loads, const ZoneDamage& damage) {
   if (!damage.is_on_surface) return nullptr;
   Json json = object({{"damage_per_turn", number(damage.damage_per_turn)},
@@ -308,7 +308,8 @@ FieldTable<ZoneRow> zone_fields() {
       Field("stress", quantities::stress_tensor, "tensor at the peak and moment",
             [](const ZoneRow& r) { return r.item.stress_Pa; })
           .in_column("sigma"),
-      Field("causes", quantities::structure, "[what brings it](../../README.md#what-brings-a-zone)", causes_json)
+      Field("causes", quantities::structure, "[what brings it](../../README.md#what-brings-a-zone)",
+            causes_json)
           .detail("brought by")
           .shown_as(causes_of_row),
       Field("parts", quantities::structure, "as `zone_tree.csv`",

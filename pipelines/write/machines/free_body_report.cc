@@ -24,7 +24,7 @@ double angle_in_turn_deg(double angle_rad) {
   return 360 * (turns - std::floor(turns));
 }
 
-/// About E', counter-clockwise.
+/// Moment of a load about E', counter-clockwise.
 double moment_N_m(const kinetics::FreeBodyLoad& load, Index i) {
   return load.at_m(0, i) * load.force_N(1, i) - load.at_m(1, i) * load.force_N(0, i) + load.couple_N_m[i];
 }

@@ -12,7 +12,7 @@
 
 namespace pipelines {
 
-/// Over the first turn of the drive, at the scene's instants.
+/// The free body over the first turn of the drive, at the scene's instants.
 /// @throws StageRefused if the scene's machine is no vibratory mill, or runs up; as kinetics does
 kinetics::FreeBody free_body(const Scene& scene);
 

@@ -10,7 +10,7 @@ namespace pipelines {
 /// Torques in the steady state, by element.
 nlohmann::ordered_json train_elements_json(const TorsionReport& report);
 
-/// Each excitation frequency against the natural frequency nearest to it, closest first.
+/// Margins of each excitation frequency against the natural frequency nearest to it, closest first.
 nlohmann::ordered_json margins_json(const TorsionReport& report);
 
 }  // namespace pipelines

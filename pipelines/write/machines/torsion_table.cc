@@ -67,7 +67,7 @@ CsvColumn numbers(std::string name, std::string unit, const Eigen::ArrayXd& valu
           std::vector<double>(values.data(), values.data() + values.size())};
 }
 
-/// Those that matter, or all; at least the closest one.
+/// Prints the margins that matter, or all; at least the closest one.
 void print_margins(std::ostream& out, const std::vector<LineMargin>& margins, bool all) {
   if (margins.empty()) return;
   out << fmt::format("\n  {:<36}{:>12}{:>8}{:>12}{:>10}{:>15}{:>15}\n", "excitation", "Hz", "mode",

@@ -82,7 +82,7 @@ void print_governing(std::ostream& out, const RunReport& report, const BodyAnaly
                      moment_text(report, stress.instant));
 }
 
-/// Beside the governing one.
+/// Prints the headlines beside the governing stress.
 void print_headlines(std::ostream& out, const BodyResult& body) {
   auto rows = headline_rows(summary_row(headline_fields(), body));
   rows.cells.erase(rows.cells.begin());

@@ -32,7 +32,7 @@ Json search_json(const Search& search) {
   return json;
 }
 
-/// Beside max_shear_stress, which is a headline.
+/// Torsion beside max_shear_stress, which is a headline.
 Json torsion_json(const BodyAnalysis& analysis) {
   const auto& diagrams = *analysis.diagrams;
   const auto largest_in_section =

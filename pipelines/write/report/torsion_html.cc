@@ -18,7 +18,7 @@ using html::Json, html::number, html::Rows;
 
 constexpr double two_pi = 2 * pi;
 
-/// As LineMargin::matters; of older results all do.
+/// Whether a margin matters, as LineMargin::matters; of older results all do.
 bool matters(const Json& margin) {
   return !margin.contains("torque_share") || std::abs(margin.at("margin").get<double>()) <= near_resonance ||
          margin.at("torque_share").get<double>() >= felt_torque_share;
