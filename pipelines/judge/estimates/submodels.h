@@ -19,7 +19,7 @@ inline constexpr const char* submodel_method =
 ///   error = 3/2 |S22 - s| + |S22 - S21| + |S31 - S21|
 /// 3/2: cells a quarter as large find two thirds of what is missing at order 0.8 and more. On five shafts of
 /// tetrahedra, 8 to 20 cells around a circle, S22 was 0 to 5 % off, from 10 cells on 0 to 1 %
-/// (tests/evidence/error_estimates.md).
+/// (tests/README.md).
 /// @param left_out  places kept out of the peak; null: none
 double submodel_error_Pa(const StressPoint& point, const fem::UnitResponses& responses, const fem::Body& body,
                          const BodyLoads& loads, const fem::LeftOut& left_out);
