@@ -296,7 +296,7 @@ FieldTable<ZoneRow> zone_fields() {
   const FieldTable<ZoneRow> rank{
       {"zone", quantities::count, "rank by peak, from 1", [](const ZoneRow& r) { return r.index + 1; }}};
   const FieldTable<ZoneRow> volume_error{{"volume_error", quantities::volume,
-                                          "numerical: [its estimate](../../README.md#volumes-of-zones); not "
+                                          "numerical: [its estimate](../../judge/README.md#volumes); not "
                                           "below `volume` where the zone may not be there; empty for "
                                           "a beam",
                                           [](const ZoneRow& r) {
@@ -308,8 +308,7 @@ FieldTable<ZoneRow> zone_fields() {
       Field("stress", quantities::stress_tensor, "tensor at the peak and moment",
             [](const ZoneRow& r) { return r.item.stress_Pa; })
           .in_column("sigma"),
-      Field("causes", quantities::structure, "[what brings it](../../README.md#what-brings-a-zone)",
-            causes_json)
+      Field("causes", quantities::structure, "[what brings it](../../judge/README.md#causes)", causes_json)
           .detail("brought by")
           .shown_as(causes_of_row),
       Field("parts", quantities::structure, "as `zone_tree.csv`",
