@@ -93,13 +93,6 @@ std::vector<Counted> count_repeating(const Eigen::ArrayXd& period, double alike)
 
 }  // namespace
 
-Eigen::ArrayXd turning_points(const Eigen::ArrayXd& series) {
-  const auto points = turning_points_of(series);
-  Eigen::ArrayXd values(Eigen::Index(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) values[Eigen::Index(i)] = points[i].value;
-  return values;
-}
-
 std::vector<LoadCycle> rainflow(const Eigen::ArrayXd& series) {
   std::vector<Counted> counted;
   const auto left = count_ranges(turning_points_of(series), StartingPoint::counts_half, 0, counted);

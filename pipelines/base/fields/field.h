@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,30 +31,35 @@ struct Field {
 };
 
 /// A field with its value of a `Row`. Its words chain, so that it reads as one line of a table:
-/// FieldOf<Zone>("volume", quantities::volume, "above the level", value).labelled("volume")
+/// FieldOf<Zone>("volume", quantities::volume, "above the level", "volume", &Zone::volume_m3)
 template <typename Row>
 struct FieldOf : Field {
   std::function<summary::Json(const Row&)> value;  ///< in SI, of the quantity's shape
 
-  FieldOf(std::string name, const Quantity& of, std::string what_it_means,
-          std::function<summary::Json(const Row&)> get)
-      : value(std::move(get)) {
+  /// @param get  a function of a row, or a member of it; a member that is a number has to be finite
+  template <typename Get>
+  FieldOf(std::string name, const Quantity& of, std::string what_it_means, const Get& get)
+      : FieldOf(std::move(name), of, std::move(what_it_means), "", get) {}
+  /// @param title  under which people see it, with its unit
+  template <typename Get>
+  FieldOf(std::string name, const Quantity& of, std::string what_it_means, std::string title,
+          const Get& get) {
     key = name;
     column = std::move(name);
     quantity = of;
     meaning = std::move(what_it_means);
+    label = std::move(title);
     is_in_csv = of.shape != Shape::structure;
+    if constexpr (std::is_convertible_v<Get, double Row::*>)
+      value = [=](const Row& row) { return summary::number(row.*get); };
+    else
+      value = get;
   }
 
-  /// People see it, under this title and its unit.
-  FieldOf labelled(std::string title) const {
-    auto field = *this;
-    field.label = std::move(title);
-    return field;
-  }
   /// People see it, in the second table.
   FieldOf detail(std::string title) const {
-    auto field = labelled(std::move(title));
+    auto field = *this;
+    field.label = std::move(title);
     field.is_detail = true;
     return field;
   }
@@ -151,6 +157,22 @@ summary::Json summary_row(const FieldTable<Row>& fields, const Row& of) {
     if (!value.is_null() || !field.is_optional) set_value(json, field, std::move(value));
   }
   return json;
+}
+
+/// Rows of a list with all fields, as CSV files have them.
+template <typename Row>
+summary::Json whole_rows(const FieldTable<Row>& fields, const std::vector<Row>& list) {
+  auto rows = summary::Json::array();
+  for (const auto& row : list) rows.push_back(whole_row(fields, row));
+  return rows;
+}
+
+/// Rows of a list as summary.json has them.
+template <typename Row>
+summary::Json summary_rows(const FieldTable<Row>& fields, const std::vector<Row>& list) {
+  auto rows = summary::Json::array();
+  for (const auto& row : list) rows.push_back(summary_row(fields, row));
+  return rows;
 }
 
 /// The fields without their values.

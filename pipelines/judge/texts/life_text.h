@@ -1,6 +1,7 @@
 /// Lives and safeties in words, and as summary.json has them.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -50,16 +51,15 @@ summary::Json beyond_json(const LifeCertainty& certainty);
 template <typename Row, typename Life, typename Certainty>
 FieldTable<Row> life_fields(const Life& life_s, const Certainty& certainty) {
   return {
-      FieldOf<Row>("life", quantities::hours, "in operation; empty: endures",
-                   [=](const Row& r) { return hours_json(life_s(r)); })
-          .labelled("life")
+      FieldOf<Row>("life", quantities::hours, "in operation; empty: endures", "life",
+                   [=](const Row& r) { return hours_json(std::invoke(life_s, r)); })
           .shown_as([](const summary::Json& row) { return life_of_row(row); }),
       FieldOf<Row>("life_range", quantities::range_of_hours,
                    "life at all stresses times 1 plus and minus their whole error",
-                   [=](const Row& r) { return life_range_json(certainty(r)); })
+                   [=](const Row& r) { return life_range_json(std::invoke(certainty, r)); })
           .in_column("life"),
       FieldOf<Row>("beyond_sn_curve", quantities::text, "why no S-N curve holds there; empty: it holds",
-                   [=](const Row& r) { return beyond_json(certainty(r)); }),
+                   [=](const Row& r) { return beyond_json(std::invoke(certainty, r)); }),
   };
 }
 

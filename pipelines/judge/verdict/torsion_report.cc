@@ -88,10 +88,6 @@ TorsionReport report_of(const Scene& scene, const Machine& machine) {
 
 }  // namespace
 
-bool LineMargin::matters() const {
-  return std::abs(margin) <= near_resonance || torque_share >= felt_torque_share;
-}
-
 TorsionReport report_torsion(const Scene& scene, const Machine& machine) {
   return with_place(scene.machine_origin, [&] { return report_of(scene, machine); });
 }

@@ -26,12 +26,9 @@ struct LineMargin : kinetics::ResonanceMargin {
   /// Torque's amplitude at this frequency, of all excitations that have it, over the largest torque of the
   /// same element: of the element where that is most.
   double torque_share = 0;
-
-  /// Near a natural frequency, or felt: what tables show. The rest is counted.
-  bool matters() const;
 };
 
-/// What `matters` means: distance from a natural frequency, share of a torque.
+/// What tables show of margins: distance from a natural frequency, share of a torque.
 inline constexpr double near_resonance = 0.2, felt_torque_share = 0.05;
 
 struct TorsionReport {

@@ -213,13 +213,6 @@ public:
 
 }  // namespace
 
-BodyLoads distribute_table(const kinetics::LoadTable& table, const std::vector<std::string>& effects,
-                           const kinetics::TimeGrid& grid, const LoadedBody& body,
-                           const TableBodyOptions& options) {
-  const auto phi_rad = kinetics::compute_loads(table, effects, grid).phi_rad;
-  return distribute_table_at(phi_rad, table, effects, grid, body, options);
-}
-
 BodyLoads distribute_table_at(const Eigen::ArrayXd& phi_rad, const kinetics::LoadTable& table,
                               const std::vector<std::string>& effects, const kinetics::TimeGrid& grid,
                               const LoadedBody& body, const TableBodyOptions& options) {

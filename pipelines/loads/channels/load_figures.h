@@ -8,6 +8,7 @@
 #include "kinetics/train_crests.h"
 #include "kinetics/values/load_history.h"
 #include "pipelines/base/common/statistics.h"
+#include "pipelines/base/fields/field.h"
 #include "pipelines/scene/whole/scene.h"
 
 namespace pipelines {
@@ -30,6 +31,12 @@ struct LoadFigure {
   double time_of_max_s = 0, time_of_min_s = 0;
   double first = 0;  ///< at the first instant
 };
+
+/// The fields of statistics.csv and loads.<name>; sweeps have all numbers but the times.
+FieldTable<LoadFigure> load_fields();
+
+/// The table `loads` of summary.json; null without any.
+summary::Json loads_json(const std::vector<LoadFigure>& figures);
 
 /// Figure of a series by its instants alone.
 LoadFigure figure_of(const std::string& name, const std::string& unit, const Eigen::ArrayXd& values,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/base/fields/field.h"
 #include "pipelines/judge/analysis/body_analysis.h"
 
 namespace pipelines {
@@ -29,6 +30,9 @@ struct EffectPrice {
 /// shorter
 std::vector<EffectPrice> price_effects(const BodyAnalysis& analysis, double solve_s, double superpose_s,
                                        const std::vector<std::pair<std::string, double>>& evaluation_s);
+
+/// Of the terminal alone: seconds change from run to run.
+FieldTable<EffectPrice> effect_price_fields();
 
 /// One line for each effect: share of the peak, channels, seconds.
 void print_effect_prices(std::ostream& out, const std::string& body, const std::vector<EffectPrice>& prices);

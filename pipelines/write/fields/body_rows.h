@@ -32,6 +32,15 @@ struct RowOf {
   std::size_t index;  ///< from 0
 };
 
+/// A member of the item; a number has to be finite.
+template <typename Value, typename Item>
+auto of_item(Value Item::*member) {
+  return [=](const auto& row) -> summary::Json {
+    if constexpr (std::is_same_v<Value, double>) return summary::number(row.item.*member);
+    return row.item.*member;
+  };
+}
+
 /// Rows as summary.json has them.
 template <typename Item>
 summary::Json summary_rows(const FieldTable<RowOf<Item>>& fields, const BodyResult& body,

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fem/loads/nodal_loads.h"
-#include "pipelines/command/calculix/calculix_results.h"
+#include "tests/verification/calculix/calculix_results.h"
 
 namespace pipelines {
 
