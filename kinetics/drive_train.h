@@ -88,9 +88,9 @@ struct DriveTrain {
   std::vector<TrainExcitation> excitations;
   std::string reference_shaft;       ///< the shaft line that reduced quantities refer to
   double reference_speed_rad_s = 0;  ///< its mean speed, > 0: orders, Campbell table, time grid
-  double modal_damping_ratio = 0;    ///< of every elastic mode of the undamped train, >= 0
+  double modal_damping_ratio = 0;    ///< damping ratio of every elastic mode of the undamped train, >= 0
 
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
   DriveTrain();
   DriveTrain(const DriveTrain&);
   DriveTrain(DriveTrain&&) noexcept;
@@ -132,9 +132,11 @@ struct HarmonicResponse {
 
 /// Steady state under all excitations: constant part, and one response per frequency.
 struct ForcedResponse {
-  double rigid_acceleration_rad_s2 = 0;  ///< of the reference shaft: a free train without drag to the ground
-  double speed_offset_rad_s = 0;         ///< of the reference shaft: where drag balances the mean torque
-  Eigen::ArrayXd mean_angle_rad;         ///< twist about the inertia-weighted mean (about the held inertia)
+  /// Acceleration of the reference shaft, where a free train has no drag to the ground.
+  double rigid_acceleration_rad_s2 = 0;
+  /// Speed of the reference shaft beyond the mean speed, where drag balances the mean torque.
+  double speed_offset_rad_s = 0;
+  Eigen::ArrayXd mean_angle_rad;  ///< twist about the inertia-weighted mean (about the held inertia)
   Eigen::ArrayXd mean_torque_Nm, mean_reduced_torque_Nm;  ///< as in HarmonicResponse
   std::vector<HarmonicResponse> harmonics;                ///< rising frequency
   std::optional<double> period_s;  ///< common period; empty if constant or if the frequencies have none
@@ -195,20 +197,20 @@ Transient transient(const DriveTrain& train, const TransientRun& run);
 /// An excitation line against the speed of the reference shaft: order * speed + constant.
 struct ExcitationLine {
   std::string excitation;      ///< empty: a further order of a Campbell table, which no excitation has
-  double order = 0;            ///< of the reference shaft; zero: a constant frequency
+  double order = 0;            ///< order by the speed of the reference shaft; zero: a constant frequency
   double frequency_rad_s = 0;  ///< at the train's mean speed
 };
 
 struct CampbellCrossing {
   ExcitationLine line;
   Eigen::Index mode = 0;
-  double speed_rad_s = 0;  ///< of the reference shaft
+  double speed_rad_s = 0;  ///< speed of the reference shaft at the crossing
 };
 
 struct CampbellTable {
   Eigen::ArrayXd speed_rad_s;
-  Eigen::ArrayXd
-      natural_frequency_rad_s;  ///< elastic modes; torsion without gyroscopic terms: no speed in it
+  /// Elastic modes; torsion without gyroscopic terms: no speed in it.
+  Eigen::ArrayXd natural_frequency_rad_s;
   std::vector<ExcitationLine> lines;
   Eigen::ArrayXXd line_frequency_rad_s;  ///< lines x speeds
   std::vector<CampbellCrossing> crossings;
@@ -226,8 +228,9 @@ struct ResonanceMargin {
   Eigen::Index mode = 0;  ///< column of NaturalModes
   double natural_frequency_rad_s = 0;
   double margin = 0;         ///< frequency / natural frequency - 1: negative below the resonance
-  double damping_ratio = 0;  ///< of the mode, from all kinds of damping; 0: nothing damps it
-  /// With that damping: 1 / |1 - r^2 + 2 i zeta r|, r = frequency / natural frequency, as warnings state it.
+  double damping_ratio = 0;  ///< the mode's damping ratio from all kinds of damping; 0: nothing damps it
+  /// Amplification with that damping: 1 / |1 - r^2 + 2 i zeta r|, r = frequency / natural frequency, as
+  /// warnings state it.
   double amplification = 0;
 };
 
@@ -277,8 +280,8 @@ struct PublishedTable {
   Eigen::ArrayXd frequency_rad_s;   ///< falling, as printed (there as Hz); the rigid mode is left out
   Eigen::ArrayXXd mode;             ///< masses x modes, unit length, in the order of the table
   Eigen::ArrayXd forced_angle_rad;  ///< masses, in the order of the table
-  Eigen::ArrayXd
-      right_sign_angle_rad;  ///< (K - w^2 J)^-1 M: the same in Table 7; in Table 4 without its slip
+  /// (K - w^2 J)^-1 M: the same in Table 7; in Table 4 without its slip.
+  Eigen::ArrayXd right_sign_angle_rad;
 };
 
 /// Convention `published`, to the letter, errata included, for a chain that is given from the motor on.

@@ -27,9 +27,10 @@ struct FreeBody {
   /// "inertia of charge in pitch" at C: those that an effect brings.
   std::vector<FreeBodyLoad> loads;
 
-  /// Of all loads; zero but for rounding.
+  /// Sum of the forces of all loads; zero but for rounding.
   Eigen::Array2Xd force_sum_N() const;
-  /// About E'. With `pitch` zero but for rounding; without, what a guide has to take.
+  /// Sum of the moments of all loads about E'. With `pitch` zero but for rounding; without, what a guide has
+  /// to take.
   Eigen::ArrayXd moment_sum_N_m() const;
 };
 

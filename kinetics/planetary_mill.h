@@ -88,9 +88,9 @@ struct PlanetaryMill {
 /// What follows from the machine's lengths alone.
 struct PlanetaryGeometry {
   double carrier_m = 0, central_pulley_m = 0, drum_pulley_m = 0;  ///< as in PlanetaryLengths
-  double belt_sine = 0;             ///< sin beta = (r_O - r_A) / l_OA, (5) with its sign, of the true belt
-  double belt_cosine = 0;           ///< cos beta; 0 beyond geometry
-  double wrap_rad = 0;              ///< of the belt on the smaller pulley, pi - 2 asin |sin beta|
+  double belt_sine = 0;    ///< sin beta = (r_O - r_A) / l_OA, (5) with its sign, of the true belt
+  double belt_cosine = 0;  ///< cos beta; 0 beyond geometry
+  double wrap_rad = 0;     ///< angle of contact of the belt on the smaller pulley, pi - 2 asin |sin beta|
   double drum_speed_ratio = 0;      ///< [omega / Omega] absolute spin of the drum, (c - 1) / c
   double relative_speed_ratio = 0;  ///< spin of the drum against the carrier / Omega, -1 / c
 };

@@ -18,7 +18,7 @@
 
 namespace kinetics {
 
-/// From one speed to another at constant acceleration, then on at the latter.
+/// A run-up from one speed to another at constant acceleration, then on at the latter.
 /// @param hold_s  may be zero
 RunUp ramp(double from_rad_s, double to_rad_s, double duration_s, double hold_s = 0);
 

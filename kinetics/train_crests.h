@@ -24,11 +24,11 @@ std::optional<LoadHistory> loads_between_instants(const DriveTrain& train,
                                                   const std::vector<std::string>& effects,
                                                   const TimeGrid& grid, Eigen::Index most = 4096);
 
-/// Of angles, accelerations, torques and shear stresses of compute_loads, and of what elements do to
-/// inertias, over the grid's window, by instants that are twenty-four or more in a period of the fastest
-/// harmonic that counts, the grid's own among them, and by parabolas between them: a crest is missed by 0.01
-/// % of that harmonic. Where the accelerations' lines would be too many instants, those that count for
-/// torques. Empty: there is no harmonic, or they would be too many.
+/// Figures over the grid's window of the angles, accelerations, torques and shear stresses of compute_loads,
+/// and of what elements do to inertias. The course is evaluated at twenty-four or more instants in a period
+/// of the fastest harmonic that counts, the grid's own among them, and by parabolas between them: a crest is
+/// missed by 0.01 % of that harmonic. Where the accelerations' lines would need too many instants, only the
+/// lines that count for torques are taken. Empty: there is no harmonic, or even these would be too many.
 /// @param at_instants  what compute_loads gave for the same: where the grid is dense enough, the course is
 ///                     not evaluated once more
 /// @throws MachineRefused as compute_loads

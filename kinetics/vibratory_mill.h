@@ -30,15 +30,15 @@ namespace kinetics {
 ///
 /// Quantities under `consistent`: chi, theta, theta_dot, theta_ddot (zero with pitch off), C.x, .y, .vx, .vy,
 /// .ax, .ay and O.x ... .ay (position from C1, velocity, acceleration of the chamber's and of the charge's
-/// centre, fixed frame; the charge's as its effects have it: vibratory/kinematics.h), B_x, B_y, B, X_E, Y_E,
-/// R_E, T, drive_power, couple, moment_residual [N m, about E'], closure_force and closure_moment (relative,
-/// the worse of the two bodies); with the effects they belong to: neglected_pitch_centripetal, spring_<i>.fx,
-/// .fy, spring_force, damping_power, charge_on_wall.fx, .fy, charge_at.x, .y (from E'), charge_power. Under
-/// `published`, by the paper's equations: X_E (42), Y_E (43), R_E (44), C.x ... O.ay (1), (4), (16), (27),
-/// chi, a_C (16), a_OC (20), a_k (24), a_n (25), a_xi (26), a_O (27), OD (57), DE (58); with the effects they
-/// belong to F_d (33), F_e (35), F_r (37), F_k (39), F_ex, F_ey, F_rx, F_ry, F_kx, F_ky (45)-(50), and with
-/// `springs` spring_force (31), spring_force_from_moments (59), K_star (60; at its poles the principal value,
-/// has_statistics = false); no resultant but "frame_bearings".
+/// centre, fixed frame; the charge's as its effects have it: vibratory_effects/kinematics.h), B_x, B_y, B,
+/// X_E, Y_E, R_E, T, drive_power, couple, moment_residual [N m, about E'], closure_force and closure_moment
+/// (relative, the worse of the two bodies); with the effects they belong to: neglected_pitch_centripetal,
+/// spring_<i>.fx, .fy, spring_force, damping_power, charge_on_wall.fx, .fy, charge_at.x, .y (from E'),
+/// charge_power. Under `published`, by the paper's equations: X_E (42), Y_E (43), R_E (44), C.x ... O.ay (1),
+/// (4), (16), (27), chi, a_C (16), a_OC (20), a_k (24), a_n (25), a_xi (26), a_O (27), OD (57), DE (58); with
+/// the effects they belong to F_d (33), F_e (35), F_r (37), F_k (39), F_ex, F_ey, F_rx, F_ry, F_kx, F_ky
+/// (45)-(50), and with `springs` spring_force (31), spring_force_from_moments (59), K_star (60; at its poles
+/// the principal value, has_statistics = false); no resultant but "frame_bearings".
 ///
 /// Without `springs`' preload given, it is the static balance of those weights that are in effect, the
 /// charge's centre taken at C.

@@ -10,7 +10,7 @@ namespace kinetics::planetary {
 
 struct EffectRow {
   EffectInfo info;
-  std::string consistent_name;  ///< under `consistent`, where it has another
+  std::string consistent_name;  ///< name under `consistent`, where it has another
   Effect (*make)(const Machine&);
 
   const std::string& name(PlanetaryConvention convention) const;

@@ -27,7 +27,7 @@ double centroid_distance(const Segment& segment);
 double x_minus_sin(double x);
 
 /// Solves x - sin x = 2 pi share (Kepler's equation of eccentricity one) for x from 0 to pi.
-/// @param share  of the circle's area, 0 .. 1/2
+/// @param share  share of the circle's area, 0 .. 1/2
 double angle_of_share(double share);
 
 }  // namespace kinetics::planetary

@@ -36,7 +36,7 @@ struct RatingLife {
 /// L10 = (C / P)^p [1e6 revolutions] and L10h = 1e6 L10 / (3600 speed / 2 pi) [h].
 /// @param dynamic_rating_N   [C] > 0, by the bearing's catalogue
 /// @param equivalent_load_N  [P] >= 0
-/// @param speed_rad_s        of the inner against the outer ring, > 0
+/// @param speed_rad_s        speed of the inner against the outer ring, > 0
 /// @return empty where no life follows: without load a bearing does not fatigue (and the same for a load so
 ///         small that the life exceeds what a double can hold); never infinity
 /// @throws MachineRefused if an argument is not finite or out of its range

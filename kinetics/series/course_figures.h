@@ -24,7 +24,7 @@ public:
   /// A crest is that of the parabola through the highest of three instants and its neighbours: by 24 of them
   /// in a period of the fastest harmonic it misses 0.01 % of that harmonic at most.
   /// @param values  the block's, and one before and one behind it
-  /// @param time_s  of the same instants, at equal steps
+  /// @param time_s  times of the same instants, at equal steps
   void add(const Eigen::ArrayXd& values, const Eigen::ArrayXd& time_s);
   CourseFigures figures() const;
 
@@ -34,7 +34,8 @@ private:
   Eigen::Index n_ = 0;
 };
 
-/// Of all quantities that have statistics and all components of resultants that are not zero throughout.
+/// Figures of all quantities that have statistics, and of all components of resultants that are not zero
+/// throughout.
 /// @param history  at equal steps of time, two instants or more; crests at its ends are those of its instants
 std::vector<CourseFigures> course_figures(const LoadHistory& history);
 

@@ -76,7 +76,7 @@ std::vector<Point> turning_points_of(const Eigen::ArrayXd& series) {
   return points;
 }
 
-/// Of a period that repeats, from one largest value to the next.
+/// Cycles of a period that repeats, counted from one largest value to the next.
 std::vector<Counted> count_repeating(const Eigen::ArrayXd& period, double alike) {
   require_series(period);
   Eigen::Index top = 0;
@@ -92,13 +92,6 @@ std::vector<Counted> count_repeating(const Eigen::ArrayXd& period, double alike)
 }
 
 }  // namespace
-
-Eigen::ArrayXd turning_points(const Eigen::ArrayXd& series) {
-  const auto points = turning_points_of(series);
-  Eigen::ArrayXd values(Eigen::Index(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) values[Eigen::Index(i)] = points[i].value;
-  return values;
-}
 
 std::vector<LoadCycle> rainflow(const Eigen::ArrayXd& series) {
   std::vector<Counted> counted;

@@ -1,4 +1,4 @@
-/// From a load over time to counted cycles: turning points, rainflow, spectrum.
+/// From a load over time to counted cycles: rainflow, spectrum.
 ///
 /// Source: ASTM E1049-85 (2017), 5.4.4 rainflow counting and 5.4.5 its form for repeating histories. The unit
 /// of ranges and means is that of the series.
@@ -16,20 +16,15 @@ struct LoadCycle {
   double count = 0;
 };
 
-/// Peaks and valleys in order, with the first and the last value; equal neighbours count as one. A constant
-/// series has a single one.
-/// @throws MachineRefused if the series is empty, or holds NaN or infinity (naming its index)
-Eigen::ArrayXd turning_points(const Eigen::ArrayXd& series);
-
 /// Half and full cycles of a series that does not repeat, E1049 5.4.4: a range that holds the starting point,
 /// or that is left at the end, counts half. In the order in which they are counted; none for a constant
 /// series.
-/// @throws MachineRefused as turning_points
+/// @throws MachineRefused if the series is empty, or holds NaN or infinity (naming its index)
 std::vector<LoadCycle> rainflow(const Eigen::ArrayXd& series);
 
 /// Full cycles of one period of a series that repeats, E1049 5.4.5: counted from one largest value to the
 /// next. It does not matter where the period was cut, nor whether its first value is repeated at its end.
-/// @throws MachineRefused as turning_points
+/// @throws MachineRefused as rainflow
 std::vector<LoadCycle> rainflow_repeating(const Eigen::ArrayXd& period);
 
 /// Where a counted cycle lies in its series.
@@ -40,7 +35,7 @@ struct CycleEnds {
 /// The cycles of rainflow_repeating by their places. Cycles of one size are closed by neighbours, whatever
 /// rounding does to them: what differs by no more than `alike` counts as equal, and smaller ranges are none.
 /// @param alike  >= 0, in the unit of the series
-/// @throws MachineRefused as turning_points, or if alike is negative or not finite
+/// @throws MachineRefused as rainflow, or if alike is negative or not finite
 std::vector<CycleEnds> rainflow_repeating_ends(const Eigen::ArrayXd& period, double alike);
 
 /// Exact spectrum: equal (range, mean) merged, their counts summed; by falling range, then rising mean.

@@ -239,7 +239,7 @@ void warn_of_missed(const TableLoad& load, const HarmonicCourse& harmonic, const
 
 struct AroundAnAngle {
   double before, after;  ///< values at the instants around it
-  double part;           ///< of the way from the one to the other
+  double part;           ///< share of the way from the instant before to the one after
 };
 
 /// @param values  at the instants of a period
@@ -252,7 +252,7 @@ AroundAnAngle around(double angle_rad, const ArrayXd& values, const TimeGrid& gr
   return {value(before), value(before + 1), at - before};
 }
 
-/// By how much each sample is off the straight line between the instants around it, in shares of the largest.
+/// Distance of each sample from the straight line between the instants around it, in shares of the largest.
 /// @param values  at the instants
 ArrayXd shares_off_the_line(const SampledCourse& samples, const ArrayXd& values, const TimeGrid& grid) {
   const Index n = n_of_period(samples, grid.turns * turn_rad);
@@ -266,8 +266,8 @@ ArrayXd shares_off_the_line(const SampledCourse& samples, const ArrayXd& values,
   return share;
 }
 
-/// By how much a sample between two instants exceeds both of their values, or falls short of them, at most,
-/// as a share of the largest sample. A jump does neither.
+/// Most that a sample between two instants exceeds both of their values, or falls short of them, as a share
+/// of the largest sample. A jump does neither.
 double share_beyond_instants(const SampledCourse& samples, const ArrayXd& values, const TimeGrid& grid) {
   const Index n = n_of_period(samples, grid.turns * turn_rad);
   const double largest = samples.values.head(n).abs().maxCoeff();
@@ -344,7 +344,7 @@ ArrayXd instants_of(const TimeGrid& grid) {
   return ArrayXd::LinSpaced(n, 0, n - 1) * (turn_rad / grid.instants_per_turn);
 }
 
-/// Each load of the effects, with its values at the angles.
+/// Evaluates each load of the effects at the angles.
 template <typename Take>
 void evaluate_all(const LoadTable& table, const std::vector<std::string>& effects, const TimeGrid& grid,
                   const ArrayXd& phi_rad, const Take& take) {

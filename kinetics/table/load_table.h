@@ -17,9 +17,10 @@ namespace kinetics {
 
 /// Samples over the period; they need not be equidistant.
 struct SampledCourse {
-  Eigen::ArrayXd angle_rad;  ///< of the drive, strictly ascending, at least four; spans at most the period
-  Eigen::ArrayXd values;     ///< SI unit of the component
-  std::string origin{};      ///< where the samples come from and how they were read, for people; may be empty
+  /// Drive angles, strictly ascending, at least four; they span at most the period.
+  Eigen::ArrayXd angle_rad;
+  Eigen::ArrayXd values;  ///< SI unit of the component
+  std::string origin{};   ///< where the samples come from and how they were read, for people; may be empty
 };
 
 /// value(phi) = mean + amplitude cos(order phi - phase), phi from the first instant
@@ -38,18 +39,20 @@ struct TableLoad {
 };
 
 struct LoadTable {
-  double speed_rad_s = 0;  ///< of the drive, > 0: ties time and angle together
+  double speed_rad_s = 0;  ///< speed of the drive, > 0: ties time and angle together
   std::vector<TableLoad> loads;
-  int turns = 1;  ///< after which the samples repeat, where the user says so; else a grid says it
+  int turns = 1;  ///< turns after which the samples repeat, where the user says so; else a grid says it
 };
 
 /// What making a load periodic and resampling it has changed, in the unit of the load.
 struct ResamplingError {
   std::string effect, port, component;
   double largest = 0;  ///< largest value of the samples, for comparison
-  double jump = 0;  ///< between the end of the period and its beginning, beyond the usual step of the samples
-  double between = 0;  ///< largest miss where every second sample is interpolated from its neighbours: an
-                       ///< upper estimate of what interpolation adds
+  /// Jump between the end of the period and its beginning, beyond the usual step of the samples.
+  double jump = 0;
+  /// Largest miss where every second sample is interpolated from its neighbours: an upper estimate of what
+  /// interpolation adds.
+  double between = 0;
 };
 
 /// One per effect of the table, in the order in which they first occur.

@@ -38,7 +38,7 @@ constexpr double instants_of_crests = 24;  // per period: they miss (pi / 24)^2 
 constexpr double missed_worth_a_warning = 0.02;
 constexpr double most_work = 2e7;  // instants times harmonics, about two seconds
 
-/// Above rounding of the largest.
+/// The sizes, raised to rounding of the largest where they are below it.
 ArrayXd above_rounding(const ArrayXd& sizes) {
   constexpr double rounding = 1e-9;
   return sizes.max(std::max(1e-300, rounding * sizes.maxCoeff()));
@@ -61,8 +61,8 @@ ArrayXd whole_motion(const ForcedResponse& all, int power) {
 
 enum class Of { torques, torques_and_motions };
 
-/// Without the many small harmonics of a table that together are less than 0.5 % of every element's torque,
-/// and of every inertia's angle and acceleration where these matter.
+/// The response without the many small harmonics of a table that together are less than 0.5 % of every
+/// element's torque, and of every inertia's angle and acceleration where these matter.
 ForcedResponse with_lines_that_count(const ForcedResponse& all, Of of = Of::torques) {
   constexpr double left_out = 0.005;
   const ArrayXd torques = whole_torque_Nm(all), angles = whole_motion(all, 0),
@@ -221,7 +221,7 @@ std::vector<CourseFigures> on_inertias(const DriveTrain& train, const std::vecto
   return result;
 }
 
-constexpr double counts = 1e-3;  // of an element's torque
+constexpr double counts = 1e-3;  // a harmonic counts from this share of an element's torque on
 
 /// Whether harmonics count that have so many instants per period or fewer.
 bool has_lines_with(double instants, const ForcedResponse& all, double sampling_rad_s) {

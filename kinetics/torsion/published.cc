@@ -64,7 +64,7 @@ PublishedChain reduced_to(const DriveTrain& train, std::size_t inertia) {
   return chain;
 }
 
-/// @param sign  of w^2 J in the forced system, and of a: -1 as Table 7, +1 the slip of Table 4
+/// @param sign  sign of w^2 J in the forced system, and of a: -1 as Table 7, +1 the slip of Table 4
 PublishedTable solved(const PublishedChain& chain, double sign) {
   const Index n = chain.inertia_kg_m2.size();
   MatrixXd K = MatrixXd::Zero(n, n);

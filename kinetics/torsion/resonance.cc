@@ -15,7 +15,7 @@ std::string both_units(double frequency_rad_s, int digits) {
   return rounded(frequency_rad_s, digits) + " rad/s (" + rounded(frequency_rad_s / (2 * pi), digits) + " Hz)";
 }
 
-/// Of a mode at r times its natural frequency; infinite at the resonance of one that nothing damps.
+/// Amplification of a mode at r times its natural frequency; infinite at an undamped resonance.
 double amplification(double r, double damping_ratio) {
   return 1 / std::hypot((1 - r) * (1 + r), 2 * damping_ratio * r);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "kinetics/torsion_chain/bidiagonal.h"
 #include "kinetics/torsion_chain/dense_algebra.h"
@@ -58,7 +59,7 @@ Spectrum of_tree(const ReducedTrain& reduced, bool with_vectors) {
     transposed(reduced.edges[e].first, e) = root_C * w[reduced.edges[e].first];
     transposed(reduced.edges[e].second, e) = -root_C * w[reduced.edges[e].second];
   }
-  JacobiResult values = one_sided_jacobi(transposed, with_vectors);
+  const auto values = jacobi_singular_values(std::move(transposed), with_vectors);
   Spectrum result{values.value.reverse(), {}, {}};
   if (!with_vectors) return result;
   result.node_vectors = values.left.rowwise().reverse();

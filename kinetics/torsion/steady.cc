@@ -14,7 +14,7 @@ using Eigen::ArrayXd;
 using Complex = std::complex<double>;
 const Complex i_unit(0, 1);
 
-/// Each load from its own place.
+/// Response as the sum of each load's own, placed where it acts.
 HarmonicState along_tree(const ReducedTrain& r, double w, const ArrayXcd& load) {
   const ArrayXcd node = -w * w * r.inertia.cast<Complex>() + i_unit * w * r.damping.cast<Complex>();
   const ArrayXcd edge = r.stiffness * (1.0 + i_unit * r.loss_factor.cast<Complex>()) +

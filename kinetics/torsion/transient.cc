@@ -134,7 +134,7 @@ public:
 
 private:
   const ReducedTrain& reduced_;
-  ArrayXd inertia_, damping_;  ///< of each inertia by itself, reduced
+  ArrayXd inertia_, damping_;  ///< moment of inertia and damping to the ground of each inertia, reduced
 };
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace kinetics::torsion {
 
 using ConstMatrix = Eigen::Ref<const Eigen::MatrixXd>;
 
-/// X' diag(weight) X
+/// The matrix X' diag(weight) X.
 Eigen::MatrixXd weighted_gram(const ConstMatrix& x, const Eigen::ArrayXd& weight);
 
 struct Eigenpairs {
@@ -23,7 +23,7 @@ double smallest_eigenvalue(const Eigen::MatrixXd& a);
 
 /// A^-1 b by LU with partial pivoting.
 Eigen::VectorXcd solve(const Eigen::MatrixXcd& a, const Eigen::VectorXcd& b);
-/// By LU with full pivoting; one of the solutions if A is singular to round-off.
+/// Solves A x = b by LU with full pivoting; one of the solutions if A is singular to round-off.
 Eigen::VectorXd solve_with_full_pivoting(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 /// A positive definite matrix, factorised once.

@@ -14,7 +14,7 @@ namespace kinetics::torsion {
 /// One frequency of one excitation: torque Re(amplitude e^(i w t)) on an inertia, real.
 struct TorqueLine {
   double frequency_rad_s = 0;
-  double order = 0;  ///< of the reference shaft; zero where the frequency is given
+  double order = 0;  ///< order by the speed of the reference shaft; zero where the frequency is given
   std::complex<double> amplitude_Nm;
   Index inertia = 0;
   std::string excitation;

@@ -12,9 +12,9 @@ namespace kinetics::torsion {
 /// One effect and the motion that it brings alone.
 struct LoadPart {
   std::string effect;
-  std::optional<Eigen::Index> inertia;  ///< that its torque acts on; none: initial values
+  std::optional<Eigen::Index> inertia;  ///< the inertia that its torque acts on; none: initial values
   TrainMotion motion;
-  Eigen::ArrayXd torque_Nm;  ///< of the effect itself, on that inertia
+  Eigen::ArrayXd torque_Nm;  ///< torque of the effect itself on that inertia
 };
 
 /// Adds to a history, whose instants it has, the quantities and resultants of every inertia and element that

@@ -57,7 +57,7 @@ struct LoadHistory {
   std::vector<Quantity> quantities;
   std::vector<Resultant> resultants;
 
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
   LoadHistory();
   LoadHistory(const LoadHistory&);
   LoadHistory(LoadHistory&&) noexcept;

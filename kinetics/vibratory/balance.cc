@@ -134,7 +134,7 @@ private:
   const Instants at_;
   const Index first_, n_;
   const Array2Xd translation_m_, velocity_m_s_;
-  Array2Xd chamber_N_, shaft_N_;  ///< of the effect that is being added
+  Array2Xd chamber_N_, shaft_N_;  ///< forces of the effect that is being added
   ArrayXd shaft_Nm_;
   EffectSums& sums_;
 };

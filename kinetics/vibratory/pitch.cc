@@ -57,7 +57,7 @@ Complex component(const Eigen::ArrayXd& values, const std::vector<Powers>& phi,
   return sum / double(phi.size());
 }
 
-/// Of each pair (p, q), (-p, -q), which are conjugate, the one that is kept.
+/// Whether (p, q) is the one that is kept of the conjugate pair (p, q), (-p, -q).
 bool is_kept(int p, int q) {
   return q > 0 || (q == 0 && p >= 0);
 }

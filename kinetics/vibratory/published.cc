@@ -39,7 +39,7 @@ ArrayXd published_moment_Nm(const VibratoryMill& mill, const std::string& effect
   return ArrayXd::Zero(at.size());
 }
 
-/// F_spr*, (59)
+/// The force of the springs F_spr* by (59).
 ArrayXd spring_force_from_moments_N(const VibratoryMill& mill, const std::vector<NamedEffect>& effects,
                                     const Instants& at) {
   ArrayXd moment_Nm = ArrayXd::Zero(at.size());

@@ -83,7 +83,8 @@ std::vector<PitchResonance> pitch_resonances(const ScalableMill& scalable, const
     const double w = std::abs(forcing.frequency_rad_s);
     const double scale = chamber.inertia_kg_m2 * w * w / chamber.stiffness_Nm;
     const bool is_known = std::any_of(resonances.begin(), resonances.end(), [&](const PitchResonance& other) {
-      return std::abs(other.frequency_rad_s - w) <= 1e-9 * w;  // of a charge that keeps step with the drive
+      // A charge that keeps step with the drive brings the same line twice.
+      return std::abs(other.frequency_rad_s - w) <= 1e-9 * w;
     });
     if (!is_known && scale >= search.least_scale && scale <= search.most_scale)
       resonances.push_back({scale, scale * given_N_m, w, forcing.p, forcing.q, false});

@@ -17,9 +17,9 @@ struct PitchState {
 struct RunUp {
   std::vector<double> time_s;       ///< rising, at least two entries
   std::vector<double> speed_rad_s;  ///< >= 0, of the drive at those times; linear in between
-  double step_s = 0;                ///< longest step of integration; zero: 1/200 of the shortest period, of
-                                    ///< pitch or twice the fastest angle
-  int steps_per_instant = 1;        ///< of so many steps one is an instant of the history, >= 1
+  /// Longest step of integration; zero: 1/200 of the shortest period, of pitch or twice the fastest angle.
+  double step_s = 0;
+  int steps_per_instant = 1;  ///< steps of integration from one instant of the history to the next, >= 1
   std::optional<PitchState> start;  ///< default: steady running at the first speed; static balance if zero
 };
 

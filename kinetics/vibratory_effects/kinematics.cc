@@ -23,7 +23,7 @@ struct PointMotion {
   }
 };
 
-/// s = ecc e(phi).
+/// Motion of the eccentric: s = ecc e(phi).
 PointMotion circle_of_eccentric(const VibratoryMill& mill, const Instants& at) {
   return {translation(mill, at), translation_velocity(mill, at), translation_acceleration(mill, at)};
 }
@@ -37,7 +37,7 @@ PointMotion circle_of_charge(const VibratoryMill& mill, const Instants& at) {
           composed(-r_m * speed.square(), across, at.along_chi)};
 }
 
-/// theta z x c.
+/// Motion of the chamber's centre by pitch: theta z x c.
 PointMotion pitch_at_chamber_centre(const VibratoryMill& mill, const Instants& at) {
   const Array2Xd across_m = constant(turned(mill.chamber_centre_m), at.size());
   return {scaled(at.theta_rad, across_m), scaled(at.theta_rad_s, across_m),

@@ -48,7 +48,7 @@ struct VibratoryMill {
   std::vector<Spring> springs;     ///< `published` needs two; the x of their positions are [QE], [HE]
   ChargeLag charge_lag;
 
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
   VibratoryMill();
   VibratoryMill(const VibratoryMill&);
   VibratoryMill(VibratoryMill&&) noexcept;

@@ -67,7 +67,7 @@ Eigen::ArrayXd cross(const Eigen::Array2Xd& a, const Eigen::Array2Xd& b);
 
 /// s = ecc e(phi), (1): the translation that the eccentric prescribes to the chamber [m].
 Eigen::Array2Xd translation(const VibratoryMill& mill, const Instants& at);
-/// ds/dt [m/s]
+/// Velocity of the translation, ds/dt [m/s].
 Eigen::Array2Xd translation_velocity(const VibratoryMill& mill, const Instants& at);
 /// d2s/dt2 = ecc (phi'' n(a) - phi'^2 e(a)) [m/s2], a = phi + shift; shift_rad: only for a lagging charge.
 Eigen::Array2Xd translation_acceleration(const VibratoryMill& mill, const Instants& at, double shift_rad = 0);

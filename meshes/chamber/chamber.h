@@ -32,7 +32,7 @@ BodyMesh build_chamber(const Chamber& chamber, const ChamberMeshControl& control
 struct ChamberDescription {
   BodyMesh body;                       ///< as build_chamber's, without cells, quality and sharp edges
   std::map<int, SweptVolume> volumes;  ///< by volume id: rings exact, plates with straight edges at the tube
-  std::size_t n_cells = 0;             ///< that build_chamber would make
+  std::size_t n_cells = 0;             ///< cells that build_chamber would make
 };
 
 /// @throws GeometryRefused as build_chamber

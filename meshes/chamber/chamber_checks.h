@@ -11,7 +11,7 @@ namespace meshes {
 void check_sizes(const Chamber& chamber);
 void check_control(const ChamberMeshControl& control);
 
-/// @param layout  of the chamber and the control
+/// @param layout  layout of the chamber and the control
 /// @throws TooManyCells naming size_m, from the cells of the tube alone
 void check_cells(const Chamber& chamber, const ChamberLayout& layout, const ChamberMeshControl& control);
 

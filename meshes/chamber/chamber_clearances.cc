@@ -86,7 +86,7 @@ double distance_in_z(const Part& a, const Part& b) {
   return least_m;
 }
 
-/// @param shift_m of an edge across its plate, over its length `run_m`
+/// @param shift_m  shift of an edge across its plate, over its length `run_m`
 void check_taper(const std::string& edge, double shift_m, double run_m, const std::string& remedy) {
   const double steepest = 0.5;
   if (shift_m <= steepest * run_m) return;

@@ -83,13 +83,13 @@ struct ChamberMeshControl {
 
   /// Thinner towards the outside where toe cells are small, each at most twice the one outside it.
   int cells_through_wall = 2;
-  double size_m = 0;       ///< of cells away from weld toes; 0: 0.15 of the tube's outer radius
+  double size_m = 0;       ///< size of the cells away from weld toes; 0: 0.15 of the tube's outer radius
   double growth = 0.7;     ///< slope of the cell size away from the weld toes
   double toe_walls = 0.6;  ///< size of the cells at the weld toes, in walls of the tube
   std::vector<FineToe> fine_toes;
-  /// For meshes whose cells are cut later: without vertices at the points of hot spots, which are in the way
-  /// all around and along the tube. Goes with toe_walls = lean_toe_walls: cut twice, such a cell ends about
-  /// where the nearer point lies, 0.4 walls from the toe.
+  /// Whether vertices at the points of hot spots are left out, for meshes whose cells are cut later: they are
+  /// in the way all around and along the tube. Goes with toe_walls = lean_toe_walls: cut twice, such a cell
+  /// ends about where the nearer point lies, 0.4 walls from the toe.
   bool lean = false;
   static constexpr double lean_toe_walls = 1.6;
   double min_scaled_jacobian = 0.3;  ///< refused below

@@ -7,7 +7,7 @@ namespace meshes {
 
 namespace {
 
-const double near_walls = 0.4, far_walls = 1.0;  // of the points of a path, from the toe
+const double near_walls = 0.4, far_walls = 1.0;  // distances of a path's points from the toe, in walls
 const double clear_walls = 0.4;                  // between a path and other plates
 
 /// Where paths cross a plate's toe: they may move to a break point nearby.

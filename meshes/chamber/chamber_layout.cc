@@ -11,7 +11,7 @@ namespace meshes {
 namespace {
 
 const double largest_share_of_housing = 0.8;  // half the web's height there, of the housing's radius
-const double chosen_size_share = 0.15;        // of the tube's outer radius
+const double chosen_size_share = 0.15;        // default cell size, as a share of the tube's outer radius
 const double closest_walls = 0.05;
 const double fine_reach_walls = 1.5, fine_share_of_distance = 0.1;
 

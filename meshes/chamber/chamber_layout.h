@@ -59,7 +59,7 @@ struct ChamberLayout {
   std::vector<FootLayout> feet;
   std::vector<Plate> plates;  ///< webs, then the lugs of each foot, front and back
   std::vector<FinePlace> fine_places;
-  double fine_reach_m = 0;  ///< of the fine places
+  double fine_reach_m = 0;  ///< distance from a fine place beyond which toes have their usual cells
 
   /// Size of the cells across a toe that runs around the tube at z_m.
   double toe_size_at_z(double z_m) const;
@@ -67,7 +67,7 @@ struct ChamberLayout {
   /// Size of the cells across the toes that run along the tube within a range of angles.
   double toe_size_within(double first_rad, double last_rad) const;
 
-  /// Smallest of all.
+  /// Size of the smallest cells across any toe.
   double finest_toe_m() const;
 
 private:

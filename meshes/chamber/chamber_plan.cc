@@ -70,7 +70,7 @@ private:
     return radii;
   }
 
-  /// Fine at the tube.
+  /// Radii of the flange's rows, fine at the tube.
   std::vector<double> flange_radii(double outer_m) const {
     const AxialSize size{{{layout_.tube_outer_m, sizes_.begin_m}}, sizes_.largest_m, sizes_.growth};
     return axial_stations(layout_.tube_outer_m, outer_m, size, 2);

@@ -76,7 +76,8 @@ std::vector<double> subdivide(const std::vector<double>& breaks, const AxialSize
   return result;
 }
 
-/// Around the tube, where the webs' cells fan out to the housing: they shall not turn more there than others.
+/// Largest cell around the tube where the webs' cells fan out to the housing: they shall not turn more there
+/// than others.
 double limit_at_web(const ChamberLayout& layout, double arc_m) {
   const WebLayout& web = layout.web;
   const double half_rad = 0.5 * (web.last_rad - web.first_rad);
@@ -88,8 +89,8 @@ double limit_at_web(const ChamberLayout& layout, double arc_m) {
              : std::numeric_limits<double>::infinity();
 }
 
-/// Around the tube, under plates: the arc of a cell rises by a fifth of their first row's height at most, or
-/// that row, whose other side is straight, would vanish in its middle.
+/// Largest cell around the tube under plates: its arc rises by a fifth of their first row's height at most,
+/// or that row, whose other side is straight, would vanish in its middle.
 double limit_under_plates(const ChamberLayout& layout, double arc_m) {
   constexpr double largest_rise = 0.2;  // a^2 / (8 R) of an arc of length a
   double limit_m = std::numeric_limits<double>::infinity();

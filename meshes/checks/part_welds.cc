@@ -14,7 +14,7 @@ namespace meshes {
 namespace {
 
 constexpr double near_walls = 0.4, far_walls = 1.0;
-/// Of the plate thickness: a point that much off the face lies beyond its end, or the face is strongly
+/// Share of the plate's thickness: a point that far off the face lies beyond its end, or the face is strongly
 /// curved.
 constexpr double off_face_walls = 0.02;
 
@@ -48,7 +48,7 @@ Point nearest_on_triangle(const Point& p, const Point& a, const Point& b, const 
   });
 }
 
-/// On the flat faces of a group.
+/// Nearest point on the flat faces of a group.
 Point nearest_on_group(const CellMesh& mesh, int face_id, const Point& p) {
   Point nearest{};
   double least = std::numeric_limits<double>::max();
@@ -70,7 +70,7 @@ double distance_to(const SharpEdge& edge, const Point& p) {
   return least;
 }
 
-/// In the face, away from the edge and at right angles to it.
+/// Direction in the face, away from the edge and at right angles to it.
 Vector across_edge(const CellMesh& mesh, const SharpSide& side) {
   const int* n = mesh.face(side.face);
   const Point a = mesh.points[n[side.edge]], b = mesh.points[n[(side.edge + 1) % 3]],
@@ -97,7 +97,7 @@ std::vector<std::vector<WeldStep>> chains_of(const CellMesh& mesh, std::vector<W
   std::vector<std::vector<WeldStep>> chains;
   while (!steps.empty()) {
     int begin = -1;
-    bool is_end = false;  // of a chain, before any node of a ring
+    bool is_end = false;  // whether `begin` is the end of a chain; such nodes come before any node of a ring
     for (const auto& step : steps)
       for (const int node : {step.from, step.to}) {
         const bool ends = n_steps[node] != 2;
@@ -128,7 +128,7 @@ struct ToePlace {
   std::array<SharpSide, 2> sides{};
 };
 
-/// As far apart as a plate is thick or closer, half of that from the ends.
+/// Places along a chain, as far apart as a plate is thick or closer, half of that from the ends.
 std::vector<ToePlace> places_along(const CellMesh& mesh, const std::vector<WeldStep>& chain,
                                    double thickness_m) {
   const auto at = [&](int node) { return mesh.points[std::size_t(node)]; };
@@ -176,7 +176,7 @@ PartToes place_weld_toes(const CellMesh& mesh, const std::map<int, std::string>&
     if (other_id < id) std::swap(steps.back().sides[0], steps.back().sides[1]);
   }
   PartToes toes;
-  std::map<int, int> count;  // of each group
+  std::map<int, int> count;  // toes counted so far on each group
   for (const auto& chain : chains_of(mesh, std::move(steps)))
     for (const auto& toe : places_along(mesh, chain, t))
       for (const auto& side : toe.sides) {

@@ -21,7 +21,7 @@ Point unit_edge(const Point& from, const Point& to) {
 }  // namespace
 
 double scaled_jacobian(const HexMesh& mesh, const Hex& hex) {
-  // For each corner its three neighbours, right-handed.
+  // The three neighbours of each corner, right-handed.
   static const int neighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
                                        {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
   double smallest = 1;

@@ -19,7 +19,7 @@ double scaled_jacobian(const HexMesh& mesh, const Hex& hex);
 double aspect(const HexMesh& mesh, const Hex& hex);
 
 /// Sets the smallest and the median scaled Jacobian, and the middle of the worst cell's corners.
-/// @param values      of all cells
+/// @param values      values of all cells
 /// @param corners_of  corner points of a cell
 void summarise(std::vector<double> values, const std::function<std::vector<Point>(std::size_t)>& corners_of,
                MeshQuality& quality);

@@ -95,7 +95,8 @@ BodySize size_within(const std::vector<std::array<Point, 3>>& surface) {
     const Point a = minus(corners[0], origin), b = minus(corners[1], origin), c = minus(corners[2], origin);
     const Point normal = cross(minus(b, a), minus(c, a));
     size.area_m2 += std::sqrt(dot(normal, normal)) / 2;
-    const double volume_m3 = dot(a, normal) / 6;  // of the tetrahedron from the origin, signed
+    // Signed volume of the tetrahedron from the origin to this face.
+    const double volume_m3 = dot(a, normal) / 6;
     const Point sum = {a[0] + b[0] + c[0], a[1] + b[1] + c[1], a[2] + b[2] + c[2]};
     size.volume_m3 += volume_m3;
     size.second_moment_m5 += volume_m3 / 20 * (dot(a, a) + dot(b, b) + dot(c, c) + dot(sum, sum));

@@ -23,7 +23,7 @@ struct SharpSide {
 /// The mesh edges of reentrant_edges, each by the two faces that meet there.
 std::vector<std::array<SharpSide, 2>> sharp_sides(const CellMesh& mesh);
 
-/// Of the sharp edge between the features of two groups.
+/// Name of the sharp edge between the features of two groups.
 std::string name_of_pair(const std::map<int, std::string>& names, int id, int other_id);
 
 /// A body's size, however it is turned.

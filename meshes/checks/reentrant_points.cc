@@ -12,7 +12,7 @@ namespace {
 constexpr double least_rise = 0.342;  // cosine of 70 degrees
 
 struct BoundaryVertex {
-  std::vector<Point> tangents;  // of the edges that leave it, of unit length
+  std::vector<Point> tangents;  // unit tangents of the edges that leave it
   Point outside{};              // sum of the unit normals of its faces
   std::set<int> surfaces;
 };
@@ -23,7 +23,7 @@ Point unit(Point v) {
   return v;
 }
 
-/// Of the edge from a to b at a, which is a parabola where it has a middle.
+/// Tangent at a of the edge from a to b, which is a parabola where it has a middle.
 Point tangent(const CellMesh& mesh, int a, int b, int middle) {
   Point along = minus(mesh.points[std::size_t(b)], mesh.points[std::size_t(a)]);
   if (middle >= 0)

@@ -15,7 +15,7 @@ namespace meshes {
 /// shows it. Tips on the edges given are passed over, but for edges within one surface. One entry each, named
 /// "tip of <surface>", with one piece of no length.
 /// @param edges  reentrant_edges of the same mesh
-/// @param names  of the surfaces by id
+/// @param names  names of the surfaces by id
 std::vector<SharpEdge> reentrant_points(const CellMesh& mesh, const std::vector<SharpEdge>& edges,
                                         const std::map<int, std::string>& names, double distance_m);
 

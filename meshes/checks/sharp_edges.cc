@@ -47,8 +47,8 @@ bool is_on(const Point& p, const PlateSurface& surface) {
   return surface.radius_m > 0 && std::abs(r_m - surface.radius_m) <= rounding * surface.radius_m;
 }
 
-/// Along the cylinder that both ends are on: a chord's arrow, r (1 - cos(turn / 2 n)), is at most r (turn / 2
-/// n)^2 / 2.
+/// Adds pieces along the cylinder that both ends are on: a chord's arrow, r (1 - cos(turn / 2 n)), is at most
+/// r (turn / 2 n)^2 / 2.
 void add_pieces(const Point& from, const Point& to, const PlateSurface& surface, SharpEdge& edge) {
   constexpr double off_arc = 5e-3;
   const auto angle = [&](const Point& p) {

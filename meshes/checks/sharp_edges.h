@@ -14,7 +14,7 @@ namespace meshes {
 struct PlateSurface {
   std::string name;
   double thickness_m = 0;
-  double radius_m = 0;  ///< of a cylinder along z; 0: flat, or not all of it round
+  double radius_m = 0;  ///< radius of a cylinder along z; 0: flat, or not all of it round
   double axis_x_m = 0, axis_y_m = 0;
 };
 

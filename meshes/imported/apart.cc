@@ -31,7 +31,7 @@ constexpr double wall_share = 10;   // seconds on the wall for one of a core, wh
 constexpr double least_bytes = 1e9;
 
 using Clock = std::chrono::steady_clock;
-std::optional<Clock::time_point> deadline;  // of DeadlineApart; a child has its parent's
+std::optional<Clock::time_point> deadline;  // set by DeadlineApart; a child has its parent's
 
 double seconds_to_deadline() {
   if (!deadline) return std::numeric_limits<double>::infinity();

@@ -16,7 +16,7 @@ namespace meshes {
 struct EndApart {
   enum class Kind { finished, crashed, too_slow, too_late, too_large };
   Kind kind = Kind::finished;
-  int signal = 0;      ///< that ended it, if it crashed
+  int signal = 0;      ///< signal that ended it, if it crashed
   std::string result;  ///< what the work has returned, if it finished
   std::string log;     ///< what it printed
 };

@@ -43,8 +43,8 @@ struct Import {
   double scale_to_m = 0;           ///< length of the file's unit; 0: 1e-3 for STEP (mm), 1 for .msh
   std::vector<ImportPort> ports;
   std::vector<PartWeld> welds{};  ///< hot-spot stress is read beside these sharp edges
-  SolidControl control;     ///< for a .msh only min_scaled_jacobian and exclusion_m count
-  double time_limit_s = 0;  ///< of a core, for reading and again for meshing; 0: from size and cells
+  SolidControl control;           ///< for a .msh only min_scaled_jacobian and exclusion_m count
+  double time_limit_s = 0;  ///< processor time for reading, and again for meshing; 0: from size and cells
 };
 
 }  // namespace meshes

@@ -105,7 +105,8 @@ void require_one_part(const CellMesh& mesh, bool of_cad) {
   throw GeometryRefused(text.str());
 }
 
-/// Around a weld's toe, up to behind the points that its stress is extrapolated from, in plate thicknesses.
+/// Reach and size of the small cells around a weld's toe, in plate thicknesses: they end behind the points
+/// that its stress is extrapolated from.
 constexpr double fine_walls = 1.2, cell_walls = 0.35;
 
 ModelMesh load(const Import& import, double scale_to_m) {

@@ -29,8 +29,8 @@ BodyMesh build_imported(const Import& import);
 
 /// What a STEP file tells before it is meshed.
 struct ImportOutline {
-  double volume_m3 = 0;  ///< of the CAD
-  double n_cells = 0;    ///< that the control asks for (cell_estimate.h)
+  double volume_m3 = 0;  ///< volume of the CAD solid
+  double n_cells = 0;    ///< cells that the control asks for (cell_estimate.h)
 };
 
 /// @throws as build_imported, of what is wrong with the file or the control; ports are not looked for

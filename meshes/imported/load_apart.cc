@@ -150,7 +150,7 @@ std::string text_of(const std::filesystem::path& file) {
   return text;
 }
 
-/// In the child: gmsh prints what it is at, which is all that is known if it crashes.
+/// Runs in the child: gmsh prints what it is at, which is all that is known if it crashes.
 ModelMesh load_with_gmsh(const Import& import, double scale_to_m) {
   const GmshSession session;
   gmsh::option::setNumber("General.Terminal", 1);
@@ -179,7 +179,7 @@ ModelMesh load_with_gmsh(const Import& import, double scale_to_m) {
   return model;
 }
 
-/// In the child: the volumes, and how many cells they would get.
+/// Runs in the child: the volumes, and how many cells they would get.
 ModelMesh read_with_gmsh(const Import& import, double scale_to_m) {
   const GmshSession session;
   gmsh::option::setNumber("General.Terminal", 1);
@@ -235,7 +235,7 @@ std::string last_deed(const std::string& log) {
   }
 }
 
-/// After gmsh has read the file: a group whose name no piece has is in the file by name alone.
+/// Notes groups that the file has by name alone, once gmsh has read it: no piece has their names.
 void note_empty_groups(const std::string& msh_text, ModelMesh& model) {
   for (auto& name : surface_groups_named(msh_text)) {
     const auto has_it = [&](const Piece& piece) {
@@ -258,7 +258,7 @@ GeometryFormat format_of(const std::filesystem::path& file) {
 
 namespace {
 
-/// @param work  of the child
+/// @param work  what the child does
 ModelMesh model_apart(const Import& import, double scale_to_m, const std::function<ModelMesh()>& work) {
   const std::string text = text_of(import.geometry);
   if (format_of(import.geometry) == GeometryFormat::step) {

@@ -10,7 +10,7 @@ namespace meshes {
 
 enum class GeometryFormat { step, msh };
 
-/// By the file's extension.
+/// Format by the file's extension.
 /// @throws GeometryRefused if it is another
 GeometryFormat format_of(const std::filesystem::path& file);
 

@@ -86,7 +86,7 @@ public:
 
 private:
   void require(std::size_t n) const { require_that(n <= bytes_.size() - at_); }
-  /// Of things that take at least a byte each.
+  /// Reads the count of a list whose items take at least a byte each.
   std::size_t count() {
     std::size_t n = 0;
     get(n);

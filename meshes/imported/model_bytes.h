@@ -15,8 +15,8 @@ namespace meshes {
 std::string bytes_of(const std::function<ModelMesh()>& action);
 
 /// The model, its indices checked.
-/// @throws GeometryRefused, TooManyCells or MeshRefused, as the action did; MeshRefused if the bytes are none
-/// of bytes_of
+/// @throws GeometryRefused, TooManyCells or MeshRefused, as the action did; MeshRefused if the bytes do not
+/// come from bytes_of
 ModelMesh model_from(const std::string& bytes);
 
 }  // namespace meshes

@@ -17,7 +17,7 @@ namespace {
 struct ElementType {
   int number, dimension, n_nodes;
 };
-/// Of gmsh's manual, section "MSH file format".
+/// Element types of gmsh's manual, section "MSH file format".
 constexpr ElementType element_types[] = {
     {1, 1, 2},   {2, 2, 3},   {3, 2, 4},   {4, 3, 4},   {5, 3, 8},   {6, 3, 6},   {7, 3, 5},   {8, 1, 3},
     {9, 2, 6},   {10, 2, 9},  {11, 3, 10}, {12, 3, 27}, {13, 3, 18}, {14, 3, 14}, {15, 0, 1},  {16, 2, 8},
@@ -59,7 +59,7 @@ public:
              " and " + std::to_string(most));
     return value;
   }
-  /// Of things of at least so many numbers: as many as the section has room for.
+  /// Reads the count of items that take at least so many numbers each; no more than the section has room for.
   std::size_t count(std::size_t n_numbers, const std::string& what) {
     return std::size_t(between(0, (end_ - at_) / std::int64_t(2 * n_numbers) + 1, what));
   }

@@ -11,9 +11,11 @@ namespace meshes {
 
 namespace {
 
-constexpr double near_share = 0.02;   // of the radius: what still counts as the cylinder meant
-constexpr double same_share = 1e-3;   // of the radius: surfaces on one and the same cylinder
-constexpr double range_share = 1e-3;  // of the length asked for, in z
+// Share of the radius within which a cylinder still counts as the one meant.
+constexpr double near_share = 0.02;
+// Share of the radius within which surfaces lie on one and the same cylinder.
+constexpr double same_share = 1e-3;
+constexpr double range_share = 1e-3;  // share of the length asked for by which z may be off
 
 [[noreturn]] void refuse(const ImportPort& port, const std::string& what) {
   throw GeometryRefused("port " + port.name + ": " + what);
@@ -138,7 +140,7 @@ void check_values(const ImportPort& port, std::set<std::string>& names) {
       refuse(port, "its cylinder needs a positive radius, and an end beyond its begin");
 }
 
-/// Of the area of all pieces together, of the CAD where it has them.
+/// Centre of the area of all pieces together, from the CAD where it has them.
 Point centre_of(const std::vector<int>& pieces, const ModelMesh& model,
                 const std::vector<PieceShape>& shapes) {
   const bool of_cad =

@@ -125,7 +125,7 @@ private:
   bool has_ended_ = false;  // what follows the last statement, as zeros and blanks of old disks, is no STEP
   int line_ = 1, statement_line_ = 1;
   bool in_statement_ = false;
-  long entity_ = 0;  // that the statement defines
+  long entity_ = 0;  // entity that the statement defines
   std::unordered_map<long, int> defined_;
   std::vector<Use> uses_;
 };

@@ -13,7 +13,7 @@ struct Keyway {
   double depth_m = 0;       ///< from the surface at the middle line to the floor
   double length_m = 0;      ///< over all, round ends included
   double begin_m = 0;       ///< z of the end with the smaller z
-  double angle_rad = 0;     ///< of the middle line about the segment's axis, from +x
+  double angle_rad = 0;     ///< angle of the middle line about the segment's axis, from +x
   bool round_ends = false;  ///< half circles of the width (end mill); else square
 };
 

@@ -11,8 +11,8 @@ namespace meshes {
 
 namespace {
 
-constexpr double widest = 0.6;        // of the diameter
-constexpr double smallest_web = 0.1;  // below the floor, of the diameter
+constexpr double widest = 0.6;        // largest width of a keyway, as a share of the diameter
+constexpr double smallest_web = 0.1;  // least material below the floor, as a share of the diameter
 constexpr double smallest_wall = 0.01;
 
 void check_keyway(const Keyway& keyway, const SolidSegment& segment, double bore_radius_m, bool is_first,

@@ -168,7 +168,7 @@ std::vector<Port> ports_of(const Shaft& shaft, const SolidLayout& layout, const 
 
 /// Corners of shoulders without a fillet are left out as block meshes leave them out, so that a keyway
 /// elsewhere does not change which stress is reported there.
-/// @param rounding_m  of coordinates along the axis; pieces of an edge leave its circle as cells do
+/// @param rounding_m  rounding of coordinates along the axis; pieces of an edge leave its circle as cells do
 void widen_at_shoulders(const SolidLayout& layout, double rounding_m, std::vector<SharpEdge>& edges) {
   constexpr double off_arc = 1e-3;
   for (std::size_t i = 0; i + 1 < layout.segments.size(); ++i) {

@@ -11,7 +11,7 @@ namespace meshes {
 struct HalfSection {
   std::vector<MeridianPoint> points;
   std::vector<MeridianQuad> quads;
-  std::vector<MeridianEdge> edges;  ///< of the surface; none on the axis
+  std::vector<MeridianEdge> edges;  ///< edges on the surface; none on the axis
 };
 
 /// The blocks of build_shaft with the core filled down to the axis, and with its boundary ids. Eccentric

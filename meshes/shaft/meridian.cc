@@ -61,9 +61,8 @@ AxialSize axial_size(const ShaftLayout& layout, int index, const ShaftMeshContro
 namespace {
 
 /// Where a cell boundary must lie inside the column: the limits of the loaded zone and its centre, where the
-/// seat's deflection and slope are told (between sections far apart they were off by 6 %); the middle of
-/// other segments, if the part at least half a diameter from both ends is shorter than the largest cell, so
-/// that it might get no boundary of its own.
+/// seat's deflection and slope are told; the middle of other segments, if the part at least half a diameter
+/// from both ends is shorter than the largest cell, so that it might get no boundary of its own.
 std::vector<double> breaks_of(const SegmentLayout& segment, double largest_m) {
   std::vector<double> breaks = {segment.column_begin_m};
   const double tiny_m = 1e-9 * segment.radius_m;

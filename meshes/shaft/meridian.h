@@ -50,7 +50,7 @@ struct Meridian {
 };
 
 /// Wanted axial cell sizes in the column of a segment.
-/// @param index  of the segment
+/// @param index  index of the segment
 AxialSize axial_size(const ShaftLayout& layout, int index, const ShaftMeshControl& control);
 
 /// Blocks: one column per segment, a fan of five at each fillet; transfinite inside, shared edges built once.

@@ -101,7 +101,7 @@ private:
     (segment == junction ? end_ : begin_)[segment] = std::move(face);
   }
 
-  /// Both equal rows, with one boundary at the line.
+  /// Equal rows on either side of the line, with one boundary at it.
   Radii plain(int index, double line_m, const Radii& guide) const {
     const SegmentLayout& segment = layout_.segments[index];
     std::vector<Break> breaks = {{0, segment.base_radius_m}};
@@ -224,7 +224,7 @@ private:
 
     std::vector<Break> breaks = {{0, narrow.base_radius_m}};
     if (low > 0) breaks.push_back({low, junction.step_radius_m});
-    const auto add_line = [&](int row, double line_m) {  // of another bore step
+    const auto add_line = [&](int row, double line_m) {  // the line of another bore step
       if (row < top && line_m < junction.small_radius_m * (1 - tiny)) insert(breaks, {row, line_m});
     };
     if (wide.has_line()) add_line(low + wide.n_inner_rows, layout_.line_at(index, junction.wide));

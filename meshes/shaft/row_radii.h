@@ -16,14 +16,14 @@ struct PlaneRadii {
 };
 
 struct RadiiPlan {
-  Radii first, last;               ///< of the shaft's ends
+  Radii first, last;               ///< radii at the shaft's two ends
   std::vector<PlaneRadii> planes;  ///< one per junction
 };
 
 /// Rows of short segments follow what the fan at their other end prescribes, so that they run straight.
 RadiiPlan plan_radii(const ShaftLayout& layout);
 
-/// Each row cut into n.
+/// The plan with each row cut into n.
 RadiiPlan subdivided(const RadiiPlan& plan, int n);
 
 /// from + (to - from) * fractions, exact at the ends

@@ -20,7 +20,7 @@ double n_cells_along(const SegmentLayout& segment, const AxialSize& size) {
   return std::max(1.0, n);
 }
 
-/// In the meridian, without a core: the five blocks that fillet_fan.h draws.
+/// Number of cells of a fan in the meridian, without a core: the five blocks that fillet_fan.h draws.
 double n_quads_of_fan(const Junction& junction, const ShaftLayout& layout) {
   const double n_half = junction.n_half_arc, n_depth = junction.n_depth();
   const double n_below = std::max(0.0, layout.segments[std::size_t(junction.small)].n_rows() - n_depth);

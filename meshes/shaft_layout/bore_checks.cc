@@ -11,9 +11,9 @@ namespace meshes {
 
 namespace {
 
-const double smallest_bore_share = 0.01;   // of the diameter
-const double smallest_wall_share = 0.01;   // of the diameter
-const double smallest_wall_fillets = 0.5;  // wall under a fillet, in fillets
+const double smallest_bore_share = 0.01;   // least bore, as a share of the diameter
+const double smallest_wall_share = 0.01;   // least wall, as a share of the diameter
+const double smallest_wall_fillets = 0.5;  // least wall under a fillet, in fillets
 
 std::string bored(const ShaftSegment& segment) {
   return segment.name + (segment.bore_m > 0 ? " (bore " + mm(segment.bore_m) + ")" : " (solid)");

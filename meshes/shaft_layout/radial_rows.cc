@@ -13,9 +13,9 @@ namespace {
 
 const double first_above = 13;  // first of the rows above a fan, in cells of the arc
 const double first_below = 7;   // first of the rows below a fan, in the fan's last cell
-const double thin_wall = 0.3;   // of the radius: no more than the least rows are asked for
+const double thin_wall = 0.3;   // as a share of the radius; thinner walls get the least number of rows
 
-/// So many rows, times a factor.
+/// Number of rows times a factor.
 int times(double factor, int n_rows) {
   return int(std::ceil(factor * n_rows - tiny));
 }

@@ -15,8 +15,8 @@ namespace meshes {
 
 namespace {
 
-// Of the length of the segment that carries fillets: one beside a shoulder down at the other end (whose fan
-// takes up to 30 %), one of a groove or beside a free end, both of a groove together.
+// Largest fillets as shares of the length of the segment that carries them: one beside a shoulder down at the
+// other end (whose fan takes up to 30 %), one of a groove or beside a free end, both of a groove together.
 const double largest_fillet_share = 0.6;
 const double largest_groove_share = 0.9;
 const double largest_fillets_share = 0.95;

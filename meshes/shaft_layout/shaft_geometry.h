@@ -15,8 +15,8 @@ struct ShaftSegment {
   double diameter_m = 0;
   double eccentricity_m = 0;  ///< offset of this segment's axis
   bool is_port = false;       ///< its surface takes load; see Shaft
-  double eccentricity_angle_rad =
-      0;                    ///< direction of the offset, counter-clockwise from +x (the body's xi axis)
+  /// Direction of the offset, counter-clockwise from +x (the body's xi axis).
+  double eccentricity_angle_rad = 0;
   double bore_m = 0;        ///< diameter of the hole along z, concentric with the z axis; 0: solid
   std::string bore_port{};  ///< name of the port that the whole inside of the bore is; empty: none
 };
@@ -49,9 +49,9 @@ struct Shaft {
   std::vector<double> fillets_m;
 };
 
-/// At a shoulder without a fillet, on blocks and tetrahedra alike: no stress is reported closer to its
-/// corner.
-/// @param small_diameter_m  of the two segments the smaller
+/// Distance from a shoulder without a fillet within which no stress is reported, on blocks and tetrahedra
+/// alike.
+/// @param small_diameter_m  the smaller diameter of the two segments
 inline double sharp_shoulder_distance_m(double small_diameter_m) {
   return 0.1 * small_diameter_m;
 }
@@ -64,8 +64,8 @@ struct ShaftMeshControl {
   int n_sectors = 16;                ///< around, a multiple of 4, >= 8
   double growth = 1.0;  ///< slope of the axial cell size away from fillets; cells grow by at most e^growth
   double largest_cell_m = 0;         ///< axial; 0: chosen from diameters and walls
-  double axial_share = 1;            ///< of the axial size that is chosen where largest_cell_m is 0
-  double rows_factor = 1;            ///< times the radial rows, away from fillets' fans; >= 1
+  double axial_share = 1;            ///< factor of the axial size that is chosen where largest_cell_m is 0
+  double rows_factor = 1;            ///< factor of the number of radial rows, away from fillets' fans; >= 1
   double min_scaled_jacobian = 0.3;  ///< refused below
   /// The blocks are laid out for cells this many times larger, each of which is then cut into as many along
   /// every edge. Divides n_sectors / 4 and half of the cells of each fillet. Meshes whose counts are in
@@ -78,7 +78,7 @@ struct ShaftMeshControl {
 
   /// Whether cells are cut after the blocks are laid out.
   bool is_cut_later() const { return lean || subdivisions > 1; }
-  /// On a quarter of one of Shaft::fillets_m.
+  /// Cells on a quarter of one of Shaft::fillets_m.
   int cells_at(int fillet) const {
     const bool own = std::size_t(fillet) < fillet_cells.size() && fillet_cells[std::size_t(fillet)] > 0;
     return own ? fillet_cells[std::size_t(fillet)] : cells_per_fillet_quarter;

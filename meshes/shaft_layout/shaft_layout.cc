@@ -12,11 +12,12 @@ namespace meshes {
 
 namespace {
 
-const double core_share = 0.6;        // of the smallest radius of the solid segments side by side
+// Radius of the core, as a share of the smallest radius of the solid segments side by side.
+const double core_share = 0.6;
 const double core_share_limit = 0.7;  // up to this the core is as wide as the bore it closes
 const double fan_depth = 3;           // in fillets, where there is room
 const double fan_ratio = 1.6;         // growth of the cells from the arc into the fan
-const double fan_ratio_before = 3;    // of cells that are cut up later
+const double fan_ratio_before = 3;    // growth of cells that are cut up later
 
 /// Cell boundaries of the fan from the arc outwards; a boundary at `must` (a fraction, 0: none) is forced.
 std::vector<double> fan_fractions(double first, double must, double ratio) {
@@ -160,7 +161,7 @@ Junction junction_of(const ShaftLayout& layout, const Shaft& shaft, int left, in
   return junction;
 }
 
-/// In a short groove the rows must lie alike at both ends: the fans get one depth and one division.
+/// Gives the fans of a short groove one depth and one division: the rows must lie alike at both ends.
 void match_fans_of_grooves(ShaftLayout& layout, double ratio) {
   for (std::size_t i = 1; i + 1 < layout.segments.size(); ++i) {
     const SegmentLayout& groove = layout.segments[i];

@@ -24,7 +24,7 @@ struct Junction {
   double small_radius_m = 0;
   double fillet_m = 0;
   double top_radius_m = 0;              ///< where the fillet ends on the shoulder: small radius + fillet
-  double depth_m = 0;                   ///< of the fan, into the big segment and below the small radius
+  double depth_m = 0;                   ///< depth of the fan into the big segment and below the small radius
   double first_cell_m = 0;              ///< size of the cells at the arc (or at the sharp corner)
   int n_half_arc = 0;                   ///< cells on each half of the arc
   std::vector<double> depth_fractions;  ///< cell boundaries of the fan from the arc (0) to its outer edge (1)
@@ -32,7 +32,7 @@ struct Junction {
 
   bool is_bore_step = false;
   int narrow = 0, wide = 0;      ///< segment indices at a bore step
-  double step_radius_m = 0;      ///< of the wide bore
+  double step_radius_m = 0;      ///< radius of the wide bore
   double step_cell_m = 0;        ///< size of the cells at the bore step's corner
   double bore_border_m = 0;      ///< z where the bores of the two segments meet, if both are bored alike
   int n_floor_before_plane = 0;  ///< cells of the fan's floor on the small segment's side; 0: equal cells
@@ -47,7 +47,8 @@ struct SegmentLayout {
   double begin_m = 0, end_m = 0, radius_m = 0;
   double shift_x_m = 0, shift_y_m = 0;
   double bore_radius_m = 0;  ///< 0: solid
-  double base_radius_m = 0;  ///< of the bore, or of the core that the solid segments side by side share
+  /// Radius of the bore, or of the core that the solid segments side by side share.
+  double base_radius_m = 0;
   bool is_port = false;
   double own_fillet_begin_m = 0, own_fillet_end_m = 0;  ///< fillets on this segment's own surface
   double zone_begin_m = 0, zone_end_m = 0;      ///< loaded zone (the bare cylinder if the segment is no port)
@@ -62,7 +63,7 @@ struct SegmentLayout {
   bool has_line() const { return line_begin_m > 0; }
   int n_rows() const { return n_inner_rows + n_outer_rows; }
   double wall_m() const { return radius_m - base_radius_m; }
-  /// So short that rows have to lie alike on both faces of the column.
+  /// Whether the column is so short that rows have to lie alike on both of its faces.
   bool is_short() const { return column_end_m - column_begin_m < wall_m(); }
 };
 

@@ -8,7 +8,8 @@ namespace meshes {
 
 namespace {
 
-constexpr double off_circle = 1e-3;  // of the distance left out; nodes at that distance are kept to 2e-3
+// Share of the distance left out by which chords leave the circle; nodes at that distance are kept to 2e-3.
+constexpr double off_circle = 1e-3;
 
 /// Adds features with rising ids.
 class FeatureList {
@@ -128,7 +129,7 @@ std::vector<Port> ports_of(const Shaft& shaft, const ShaftLayout& layout, const 
 std::vector<SharpEdge> sharp_edges_of(const Shaft& shaft, const ShaftLayout& layout) {
   const auto circle = [&](const std::string& name, double z_m, double radius_m, double distance_m) {
     SharpEdge edge{name, distance_m, {}};
-    // Its arrow, r (1 - cos(pi / n)), is at most r (pi / n)^2 / 2.
+    // The arrow of a chord, r (1 - cos(pi / n)), is at most r (pi / n)^2 / 2.
     const double pi = std::acos(-1.0), share = off_circle * distance_m / radius_m;
     const int n = 4 * std::max(4, int(std::ceil(pi / std::sqrt(2 * share) / 4)));
     const auto at = [&](int j) -> std::array<double, 3> {

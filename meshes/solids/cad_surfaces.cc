@@ -18,7 +18,8 @@ namespace meshes {
 namespace {
 
 constexpr double same_direction = 1e-7;  // sine of the angle between normals of a plane
-constexpr double same_radius = 1e-5;  // of the radius: splines through points of a cylinder are off by that
+// Share of the radius: splines through points of a cylinder are off by that.
+constexpr double same_radius = 1e-5;
 
 struct Sample {
   Point at{}, normal{};
@@ -286,7 +287,8 @@ std::optional<AreaAndCentre> area_of(int surface, const CadSurface& shape) {
 
 namespace {
 
-/// Above 0 where the body is convex, below where it is hollow: how far the middle of edges lies outside.
+/// How far the middle of each piece's edges lies outside: above 0 where the body is convex, below where it is
+/// hollow.
 std::vector<double> bulges_of(const ModelMesh& model) {
   std::vector<double> bulges(model.pieces.size(), 0.0);
   const CellMesh& mesh = model.mesh;

@@ -13,10 +13,10 @@ struct CadSurface {
   Kind kind = Kind::other;
   Point centre{};     ///< a point of the plane, or of the cylinder's axis [the model's unit]
   Point axis{};       ///< the plane's normal, or along the cylinder's axis; of unit length
-  double radius = 0;  ///< of a cylinder; of a surface that is bent alike everywhere, as fillets are
+  double radius = 0;  ///< radius of a cylinder, or of a surface that is bent alike everywhere, as fillets are
 };
 
-/// By points and normals at a few places.
+/// Recognises a surface by points and normals at a few places.
 CadSurface recognise(int surface);
 
 /// Area and its centre, integrated along the curves that bound a plane or a cylinder: exact to rounding,

@@ -61,7 +61,7 @@ struct Tip {
 /// @param fixed  which parameter is the same along the side: 0 or 1
 Tip tip_at(int surface, int fixed, bool at_high) {
   constexpr double near = 1. / 48, far = 1. / 24, as_at_a_tip = 1.8;  // curvature at half the distance: twice
-  constexpr double one_point = 1e-6;                                  // of the distance
+  constexpr double one_point = 1e-6;  // points this close, as a share of the distance, are one
   constexpr int n_around = 16;
   std::vector<double> low, high, places, points, curvature;
   gmsh::model::getParametrizationBounds(2, surface, low, high);
@@ -148,8 +148,9 @@ void refuse_slender_tips() {
 
 double smallest_edge(const SolidControl& control, double unit_m) {
   if (control.smallest_size_m > 0) return control.smallest_size_m / unit_m;
-  constexpr double share = 0.25;               // of what the sharpest curvature found asks for
-  constexpr double least = 1e-4, most = 0.25;  // of the longest edge
+  // Edge length, as a share of the one that the sharpest curvature found asks for.
+  constexpr double share = 0.25;
+  constexpr double least = 1e-4, most = 0.25;  // limits of the edge length, as shares of the longest edge
   std::vector<double> shares;
   for (int i = 0; i < 12; ++i) shares.push_back((i + 0.5) / 12);
   const double longest = longest_edge(control, unit_m);

@@ -8,9 +8,9 @@
 
 namespace meshes {
 
-/// Of gmsh's current model, as built or imported by OpenCASCADE: regular tetrahedra in the volumes, and three
-/// for each triangle of a surface whose curvature asks for shorter edges. Within a factor of 3 of gmsh's
-/// meshes (unit test cell_estimates).
+/// Number of cells that gmsh's current model needs, as built or imported by OpenCASCADE: regular tetrahedra
+/// in the volumes, and three for each triangle of a surface whose curvature asks for shorter edges. Within a
+/// factor of 3 of gmsh's meshes (unit test cell_estimates).
 /// @param unit_m  length of the model's unit
 double estimated_cells(const SolidControl& control, double unit_m);
 
@@ -34,7 +34,8 @@ double measure_of(int dimension, int tag);
 /// @throws GeometryRefused naming the surface
 std::map<int, double> sizes_along_narrow_surfaces(double smallest, double largest);
 
-/// Around a tip that is more slender than 23 degrees in all gmsh finds no triangles, whatever their size.
+/// Refuses a tip that is more slender than 23 degrees in all: around it gmsh finds no triangles, whatever
+/// their size.
 /// @throws GeometryRefused naming the surface of gmsh's current model, its place and what helps
 void refuse_slender_tips();
 

@@ -95,7 +95,7 @@ private:
     return dot(u, v) / (length(u) * length(v));
   }
 
-  /// With the cells around each; no cell is at two of them.
+  /// Edges that are split, with the cells around each; no cell is at two of them.
   std::map<Edge, std::vector<std::size_t>> edges_to_split() const {
     static constexpr int opposite[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
                                            {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
@@ -148,7 +148,8 @@ private:
       ring[i] /= n_ring;
       middle[i] = (place_.at(e.first)[i] + place_.at(e.second)[i]) / 2;
     }
-    // From the edge towards the middle of the cells around it, as far as the worst of them profits.
+    // The new node moves from the edge towards the middle of the cells around it, as far as the worst of them
+    // profits.
     Vector best = middle;
     double best_worst = -1;
     for (int step = 0; step <= 16; ++step) {

@@ -70,7 +70,7 @@ private:
   struct Group {
     int node = 0;
     std::vector<int> middles;        // inner ones of the edges at a corner
-    std::vector<std::size_t> cells;  // that any of these belongs to
+    std::vector<std::size_t> cells;  // cells that any of these belongs to
     double size = 1e300;             // shortest edge of the node's cells
   };
 

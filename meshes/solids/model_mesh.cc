@@ -106,7 +106,7 @@ public:
     if (is_new) mesh.points.push_back(position_.at(tag));
     return known->second;
   }
-  /// -1: of no cell
+  /// Number of the node with that tag; -1: it is of no cell.
   int known(std::size_t tag) const {
     const auto found = numbers_.find(tag);
     return found == numbers_.end() ? -1 : found->second;
@@ -231,7 +231,7 @@ void take_exact_centre(Piece& piece) {
   piece.centre_m = exact->centre;
 }
 
-/// Of surfaces or volumes that OpenCASCADE has.
+/// Measures surfaces or volumes that OpenCASCADE has.
 void measure(int dimension, double unit_m, std::vector<Piece>& pieces) {
   gmsh::vectorpair groups;
   gmsh::model::getPhysicalGroups(groups, dimension);
@@ -271,7 +271,7 @@ BodySize size_of_cad(const ModelMesh& model) {
   return size;
 }
 
-/// Of the flat faces between the corners.
+/// Size of the body within the flat faces between the corners.
 BodySize size_of_mesh(const CellMesh& mesh) {
   std::vector<std::array<Point, 3>> surface;
   for (std::size_t f = 0; f < mesh.n_faces(); ++f)
@@ -331,9 +331,9 @@ ModelMesh mesh_and_collect(const SolidControl& control, double unit_m) {
       auto model = mesh_once(tried, unit_m);
       if (is_last || measure_quality(model.mesh).min_scaled_jacobian >= least_scaled_jacobian(model, control))
         return model;
-    } catch (const std::string&) {  // gmsh's
+    } catch (const std::string&) {  // thrown by gmsh
       if (is_last) throw;
-    } catch (const std::runtime_error&) {  // of gmsh 4.9 and later
+    } catch (const std::runtime_error&) {  // thrown by gmsh 4.9 and later
       if (is_last) throw;
     }
     gmsh::model::mesh::clear();

@@ -17,9 +17,9 @@ namespace meshes {
 
 namespace {
 
-constexpr double growth = 0.5;  // of the cell size, over the distance
-/// Of a curve's length in cells, which gmsh integrates the size for. The size has kinks, at which gmsh's own
-/// 1e-9 takes a hundred times longer: 18 s for the curves of a plate with 40 holes, 2 s for its surfaces.
+constexpr double growth = 0.5;  // slope of the cell size over the distance
+/// Precision of a curve's length in cells, for which gmsh integrates the size. The size has kinks, at which
+/// gmsh's own 1e-9 takes a hundred times longer.
 constexpr double curve_precision = 1e-4;
 const char* const extend_from_boundary = "Mesh.MeshSizeExtendFromBoundary";
 
@@ -39,7 +39,7 @@ std::size_t n_elements(int curve) {
 
 /// Curves whose distance is one field: elements of a length within a tenth, and as many points along each.
 struct CurvesOfSize {
-  int step = 0;      ///< of the length: 1.1^step and more
+  int step = 0;      ///< step of the element length: 1.1^step and more
   int n_points = 0;  ///< gmsh takes the distance from points: two for each element and more, at least 200
   bool operator<(const CurvesOfSize& other) const {
     return std::pair(step, n_points) < std::pair(other.step, other.n_points);

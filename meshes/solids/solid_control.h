@@ -11,17 +11,19 @@ namespace meshes {
 struct FineSpot {
   std::array<double, 3> centre_m{};
   double radius_m = 0;
-  double size_m = 0;  ///< of edges inside
+  double size_m = 0;  ///< edge length inside
 };
 
 struct SolidControl {
-  double size_m = 0;           ///< longest edge wanted; 0: a 20th of the body's diagonal
-  double size_factor = 1;      ///< of size_m, given or not
-  double smallest_size_m = 0;  ///< no edges are shorter, whatever curvature asks for: limits what small
-                               ///< fillets cost; 0: from the sizes of the part (cell_estimate.h)
-  int cells_per_circle =
-      16;  ///< around every curved surface, >= 6; a quarter of a fillet gets a fourth of it
-  double min_scaled_jacobian = 0.05;  ///< of the curved cells, refused below
+  double size_m = 0;       ///< longest edge wanted; 0: a 20th of the body's diagonal
+  double size_factor = 1;  ///< factor of size_m, given or not
+  /// No edges are shorter, whatever curvature asks for: limits what small fillets cost; 0: from the sizes of
+  /// the part (cell_estimate.h).
+  double smallest_size_m = 0;
+  /// Cells around every curved surface, >= 6; a quarter of a fillet gets a fourth of it.
+  int cells_per_circle = 16;
+  /// Least scaled Jacobian of the curved cells; below it the mesh is refused.
+  double min_scaled_jacobian = 0.05;
   std::vector<FineSpot> fine_spots{};
   /// No stress is reported closer to re-entrant edges. 0: 1 % of the body's size, at most volume over surface
   /// (reentrant_edges.h); at a keyed shaft's shoulders as block meshes.

@@ -16,7 +16,7 @@ namespace {
 struct CurvedEdge {
   std::array<int, 2> ends{};
   Point arrow{};     // from the middle of its ends to where the surface has the middle
-  double share = 1;  // of the arrow that is left
+  double share = 1;  // share of the arrow that is left
   std::vector<std::size_t> cells;
 };
 
@@ -45,7 +45,7 @@ private:
         CurvedEdge edge;
         edge.ends = {a, b};
         for (std::size_t d = 0; d < 3; ++d) edge.arrow[d] = point(m)[d] - (point(a)[d] + point(b)[d]) / 2;
-        constexpr double rounding = 1e-9;  // of the length
+        constexpr double rounding = 1e-9;  // share of the edge's length
         if (length(edge.arrow) > rounding * length(minus(point(b), point(a)))) edges_.emplace(m, edge);
       }
     for (std::size_t c = 0; c < mesh_.n_cells(); ++c)

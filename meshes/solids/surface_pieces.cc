@@ -15,7 +15,7 @@ struct Triangle {
   Point centre{}, normal{};  // normal of the length of the area, outward
 };
 
-/// From the corners alone; a quadrangle by its two halves.
+/// The triangle of a face by its corners alone; a quadrangle by its two halves.
 Triangle flat(const CellMesh& mesh, std::size_t face) {
   const int* nodes = mesh.face(face);
   const std::size_t n = mesh.corners_per_face();

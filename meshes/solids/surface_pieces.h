@@ -15,8 +15,8 @@ struct FoundCylinder {
 };
 
 struct PieceShape {
-  Point low_m{}, high_m{};  ///< of its corner nodes
-  Point centre_m{};         ///< of its area, with the curves of quadratic cells
+  Point low_m{}, high_m{};  ///< box around its corner nodes
+  Point centre_m{};         ///< centre of its area, with the curves of quadratic cells
   double area_m2 = 0;
   std::optional<FoundCylinder> cylinder;
 };

@@ -10,7 +10,7 @@ namespace meshes {
 
 namespace {
 
-const double same_share = 1e-6;  // of the closest distance: rounding
+const double same_share = 1e-6;  // share of the closest distance that rounding may blur
 
 }  // namespace
 

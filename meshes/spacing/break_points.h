@@ -6,7 +6,8 @@
 
 namespace meshes {
 
-/// Along a line, or around a closed one of length `period_m` (0: not closed). Lengths in m.
+/// Places of cell boundaries along a line, or around a closed one of length `period_m` (0: not closed).
+/// Lengths in m.
 class BreakPoints {
 public:
   explicit BreakPoints(double closest_m, double period_m = 0);

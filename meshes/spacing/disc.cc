@@ -10,7 +10,7 @@ namespace meshes {
 namespace {
 
 // Chosen for the largest smallest angle of the cells at 8 to 32 sectors.
-const double corner_radius = 0.68;  // of the rounded square
+const double corner_radius = 0.68;  // distance of a rounded square's corner, as a share of the radius
 const double roundness = 0.45;      // 0: straight sides, 1: a circle
 
 using Point2 = std::array<double, 2>;

@@ -29,12 +29,12 @@ struct AxialSize {
 
 /// Cell boundaries from begin to end that follow the wanted size: its reciprocal is integrated and inverted.
 /// @param n_min smallest number of cells
-/// @param subdivisions of each of them
+/// @param subdivisions  parts that each of them is cut into
 /// @return ascending, exactly begin and end at the ends
 std::vector<double> axial_stations(double begin_m, double end_m, const AxialSize& size, int n_min,
                                    int subdivisions = 1);
 
-/// Each interval between ascending (or descending) values cut into n, whose sizes pass smoothly from one
+/// Cuts each interval between ascending (or descending) values into n, whose sizes pass smoothly from one
 /// interval to the next: the values are kept, a geometric progression nearly stays one, and cuts into 2 are
 /// among those into 4. By rational quadratic splines (Gregory and Delbourgo 1982: monotone), whose slope at a
 /// value is the geometric mean of the intervals beside it.

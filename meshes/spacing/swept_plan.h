@@ -44,10 +44,10 @@ struct SweptVolume {
   std::size_t n_cells = 0;
   double volume_m3 = 0;
   std::array<double, 3> first_m4{};   ///< integrals of x, y, z
-  std::array<double, 6> second_m5{};  ///< of xx, yy, zz, xy, yz, xz
+  std::array<double, 6> second_m5{};  ///< integrals of xx, yy, zz, xy, yz, xz
 };
 
-/// Of all volume groups, by their ids, without sweeping anything.
+/// Sizes of all volume groups by their ids, without sweeping anything.
 /// @param stations_m  as sweep takes them: they count the cells
 std::map<int, SweptVolume> swept_volumes(const Plan& plan, const std::vector<double>& stations_m);
 

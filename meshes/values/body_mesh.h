@@ -22,7 +22,7 @@ struct Port {
   /// Range in z of the loaded surface; equal for an end face, and for a face of an imported body, which has
   /// the centre of its area there.
   double begin_m = 0, end_m = 0;
-  double radius_m = 0;  ///< of the cylinder; of a round end face; 0 for other faces
+  double radius_m = 0;  ///< radius of the cylinder, or of a round end face; 0 for other faces
   /// The cylinder's own axis; the point of a face about which it is loaded.
   double axis_x_m = 0, axis_y_m = 0;
 };
@@ -39,15 +39,15 @@ struct Feature {
   double begin_m = 0, end_m = 0;  ///< range in z
 };
 
-/// All cells of a volume group: cylinder coordinates (r, angle, z) about the axis through (axis_x, axis_y),
-/// composed with the eccentric shift  (x, y) += s(r) (shift_x, shift_y),
+/// Map of all cells of a volume group: cylinder coordinates (r, angle, z) about the axis through (axis_x,
+/// axis_y), composed with the eccentric shift (x, y) += s(r) (shift_x, shift_y),
 ///   s(r) = clamp((r - inner_radius)/(outer_radius - inner_radius), 0, 1).
 /// No cell reaches across r = inner_radius. A group without a chart (the core of a shaft) has straight cells.
 struct CylinderChart {
   int volume_id = 0;
   double shift_x_m = 0, shift_y_m = 0;
-  double inner_radius_m = 0;  ///< r_a: inside it nothing is shifted; that of the core or of
-                              ///< the bore if concentric
+  /// r_a: inside it nothing is shifted; that of the core or of the bore if concentric.
+  double inner_radius_m = 0;
   double outer_radius_m = 0;  ///< R: the surface of the segment, fully shifted
   double axis_x_m = 0, axis_y_m = 0;
 };
@@ -67,7 +67,7 @@ struct SectionPlane {
   double axis_x_m = 0, axis_y_m = 0;
   std::string segment;
   bool plain = false;         ///< at least one half diameter away from both ends of its segment
-  double inner_radius_m = 0;  ///< of the bore, concentric with the z axis; 0: solid
+  double inner_radius_m = 0;  ///< radius of the bore, concentric with the z axis; 0: solid
 };
 
 /// Cells whose mass is counted together, where a body has several such parts (the chamber: "structure",
@@ -95,12 +95,12 @@ struct HotSpot {
   std::array<double, 3> toe_m{}, near_m{}, far_m{};
 };
 
-/// An edge of tetrahedra on a curved surface that is straighter than that surface, since cells as curved as it
-/// would be inverted.
+/// An edge of tetrahedra on a curved surface that is straighter than that surface, since cells as curved as
+/// it would be inverted.
 struct StraightEdge {
   std::array<double, 3> middle_m{};
   double length_m = 0;
-  double off_m = 0;  ///< of its middle from where the surface has it
+  double off_m = 0;  ///< distance of its middle from where the surface has it
 };
 
 struct MeshQuality {
@@ -121,13 +121,13 @@ struct BodyMesh {
   std::vector<Region> regions;         ///< empty: the whole body is one
   std::vector<SharpEdge> sharp_edges;
   std::vector<HotSpot> hot_spots;
-  std::vector<std::string>
-      covered_toes;  ///< names of hot spots that are not read: other plates are in the way
+  /// Names of hot spots that are not read: other plates are in the way.
+  std::vector<std::string> covered_toes;
   std::vector<StraightEdge> straight_edges;  ///< imported STEP files and keyed shafts only
   double smallest_size_m = 0;                ///< no edge of an imported STEP file's mesh is wanted shorter
   MeshQuality quality;
 
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
   BodyMesh();
   BodyMesh(const BodyMesh&);
   BodyMesh(BodyMesh&&) noexcept;

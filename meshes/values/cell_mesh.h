@@ -21,7 +21,7 @@ struct CellMesh {
   std::vector<Point> points;
   std::vector<int> cells;      ///< nodes_per_cell() each
   std::vector<int> volume_id;  ///< one per cell
-  std::vector<int> faces;      ///< of the boundary, nodes_per_face() each
+  std::vector<int> faces;      ///< faces on the boundary, nodes_per_face() each
   std::vector<int> face_id;    ///< one per face
 
   std::size_t nodes_per_cell() const { return kind == CellKind::tetrahedra ? 10 : 8; }

@@ -5,7 +5,7 @@ namespace meshes {
 
 inline constexpr double pi = 3.14159265358979323846;
 
-/// Of a length, for comparisons that rounding may blur.
+/// Share of a length that rounding may blur in comparisons.
 inline constexpr double tiny = 1e-9;
 
 /// gmsh's numbers of element types.

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t most_findings_told = 20;  // a person corrects no more before the next try
 
-/// Of what is written, no more than a line on a screen; never half a character of UTF-8.
+/// What is written, shortened to about a line on a screen; never cut within a character of UTF-8.
 std::string shortened(const std::string& written) {
   constexpr std::size_t longest = 100;
   if (written.size() <= longest) return written;

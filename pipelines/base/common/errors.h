@@ -21,7 +21,8 @@ struct SceneFinding {
   std::string text() const;
 };
 
-/// All that is wrong with a scene, at once; the message tells the first twenty and how many more there are.
+/// Holds all that is wrong with a scene, at once; the message tells the first twenty and how many more there
+/// are.
 class SceneError : public std::runtime_error {
 public:
   explicit SceneError(std::vector<SceneFinding> findings);

@@ -31,8 +31,8 @@ struct Failure {
   std::string message;  ///< whole lines without the last line's end
 };
 
-/// Of the exception that is being handled; only inside a catch clause. What is of no type that means a user's
-/// mistake, a mesh or a solve that failed, is said to be an internal error.
+/// The exception that is being handled, as a failure; only inside a catch clause. An exception of no type
+/// that means a user's mistake, a mesh or a solve that failed, is said to be an internal error.
 Failure failure_in_flight();
 
 }  // namespace pipelines

@@ -12,10 +12,10 @@ bool started_on_several_ranks();
 /// The ranks that share the work on a body: all of them, or this one alone.
 MPI_Comm ranks_of_a_body();
 int n_ranks_of_a_body();
-/// From here on this rank works on bodies of its own.
+/// Lets this rank work on bodies of its own from here on.
 void work_on_bodies_alone();
 
-/// Of the ranks that share a body, the one that reads, writes and tells.
+/// Whether this is the rank that reads, writes and tells for those that share a body.
 bool is_first_rank();
 
 /// What that rank found, on all of them: a time, what a file says. Called on all ranks that share a body, in

@@ -21,7 +21,7 @@ double peak_memory_gigabytes();
 /// Lets the peak begin anew from what is resident now, where the system allows it (Linux).
 void forget_peak_memory();
 
-/// Of all stages of that name; 0 if there is none.
+/// Seconds of all stages of that name together; 0 if there is none.
 double seconds_of(const std::vector<StageCost>& costs, const std::string& stage);
 
 /// Told what happens while it happens. Empty functions are not called.

@@ -11,7 +11,7 @@ struct Statistics {
   double max = 0, min = 0, mean = 0, rms = 0;
 };
 
-/// Of a series that is finite, however large or small: by its largest entry.
+/// Root mean square of a finite series, scaled by its largest entry so that no square overflows.
 inline double root_mean_square(const Eigen::ArrayXd& values) {
   const double largest = values.size() > 0 ? values.abs().maxCoeff() : 0;
   return largest > 0 ? largest * std::sqrt((values / largest).square().mean()) : 0;

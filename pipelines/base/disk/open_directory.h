@@ -27,7 +27,7 @@ public:
   /// called by `shown` in messages.
   std::filesystem::path path() const;
 
-  /// As the user knows it.
+  /// The directory's name as the user knows it.
   const std::filesystem::path& name() const noexcept { return name_; }
 
   /// Has it called by another name in messages.
@@ -42,7 +42,7 @@ public:
   /// @throws OptionError if it is no folder, or is or lies behind a link
   OpenDirectory make_folder(const std::filesystem::path& folder) const;
 
-  /// Of a file, folder or link itself. @return empty if there is none, or if it lies behind a link
+  /// State of a file, folder or link itself. @return empty if there is none, or if it lies behind a link
   std::optional<struct stat> look(const std::filesystem::path& file) const;
 
   /// The first of the folders before the last part of a name that is there and is no folder; empty: none.
@@ -59,7 +59,7 @@ public:
   void remove_if_empty(const std::filesystem::path& folder) const;
 
   /// Removes a folder with all that is in it; links themselves, and nothing behind them.
-  /// @param last  of the names in the folder, which goes after the others
+  /// @param last  name in the folder that goes after the others
   void remove_all(const std::filesystem::path& folder, const std::string& last = "") const;
 
   int descriptor() const noexcept { return *descriptor_; }

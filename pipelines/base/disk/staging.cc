@@ -123,7 +123,7 @@ DirectoryLock::DirectoryLock(const OpenDirectory& directory) : directory_(direct
     }
     lock_file(file_, true);
     if (is_file_at(file_, directory_, lock_of_directory)) return;
-    close(file_);  // of one that was done with it meanwhile
+    close(file_);  // the process that held it has removed it meanwhile
   }
 }
 

@@ -42,7 +42,7 @@ public:
   Staging(const Staging&) = delete;
   Staging& operator=(const Staging&) = delete;
 
-  /// Where to write. Messages call its files by the names that they will have in the directory.
+  /// The folder to write into. Messages call its files by the names that they will have in the directory.
   const OpenDirectory& folder() const noexcept { return folder_; }
 
   /// The one that it is in.

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 struct Circle {
   Vector2d centre = Vector2d::Zero();
-  double square = 0;  ///< of the radius
+  double square = 0;  ///< square of the radius
 };
 
 bool holds(const Circle& circle, const Vector2d& point) {
@@ -30,7 +30,7 @@ Circle circle_of(const Vector2d& a, const Vector2d& b) {
   return {(a + b) / 2, (a - b).squaredNorm() / 4};
 }
 
-/// Through three points; of three on a line, that of the outer two.
+/// Circle through three points; of three on a line, that of the outer two.
 Circle circle_of(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   const Vector2d u = b - a, v = c - a;
   const double cross = u.x() * v.y() - u.y() * v.x();
@@ -171,9 +171,9 @@ struct Farthest {
   }
 };
 
-/// Of a long path the points with the largest normal stress on one of the planes, or farthest in one of
-/// sixteen directions of shear: what decides on planes near by. A short path as it is. The path is taken in
-/// pieces that stay in the processor's memory.
+/// The points of a long path with the largest normal stress on one of the planes, or farthest in one of
+/// sixteen directions of shear: they decide on planes near by. A short path stays as it is. The path is taken
+/// in pieces that stay in the processor's memory.
 StressPath outermost(const StressPath& history_Pa, const std::vector<Vector3d>& normals) {
   if (history_Pa.cols() <= long_path) return history_Pa;
   constexpr Eigen::Index at_once = 512;

@@ -35,7 +35,7 @@ DinLimit limit_of_kind(const DinKind& kind, const DinShaft& shaft) {
   return limit;
 }
 
-/// Of the equivalent amplitude: a kind of stress with less counts the mean in proportion.
+/// Share of the equivalent amplitude below which a kind of stress counts its mean in proportion.
 constexpr double least_share = 0.01;
 
 double endured_amplitude(const DinLimit& limit, double yield_Pa, double amplitude_Pa, double mean_Pa,

@@ -112,48 +112,4 @@ double reliability_factor_of_97_5(double reliability) {
   return marin_reliability_factor(reliability) / marin_reliability_factor(0.975);
 }
 
-MarinLimit marin_limit(const MarinPart& part) {
-  require_positive_input("tensile_strength_Pa", part.tensile_strength_Pa);
-  require_input_between("tensile_strength_Pa", part.tensile_strength_Pa, 1e6, 3e9);
-  require_positive_input("diameter_m", part.diameter_m);
-  require_input_between("diameter_m", part.diameter_m, 0, 0.254);
-  struct PowerLaw {
-    double factor, exponent;
-  };
-  constexpr PowerLaw of_finish[] = {{1.58, -0.085}, {4.51, -0.265}, {57.7, -0.718}, {272, -0.995}};
-  const PowerLaw finish = of_finish[int(part.finish)];
-  const double strength_MPa = part.tensile_strength_Pa / 1e6, diameter_mm = part.diameter_m * 1e3;
-  MarinLimit limit;
-  limit.specimen_Pa = std::min(0.5 * part.tensile_strength_Pa, 700e6);
-  limit.surface = std::min(1.0, finish.factor * std::pow(strength_MPa, finish.exponent));
-  if (part.kind != ShaftStressKind::axial && diameter_mm >= 2.79)
-    limit.size =
-        diameter_mm <= 51 ? 1.24 * std::pow(diameter_mm, -0.107) : 1.51 * std::pow(diameter_mm, -0.157);
-  if (part.kind == ShaftStressKind::axial) limit.load = 0.85;
-  if (part.kind == ShaftStressKind::torsion) limit.load = 0.59;
-  limit.reliability = marin_reliability_factor(part.reliability);
-  limit.limit_Pa = limit.surface * limit.size * limit.load * limit.reliability * limit.specimen_Pa;
-  return limit;
-}
-
-double notch_sensitivity(double tensile_strength_Pa, double notch_radius_m, ShaftStressKind kind) {
-  require_positive_input("notch_radius_m", notch_radius_m);
-  require_finite_input("tensile_strength_Pa", tensile_strength_Pa);
-  constexpr double Pa_of_kpsi = 6.894757293168e6, m_of_inch = 0.0254;
-  const double s = tensile_strength_Pa / Pa_of_kpsi;
-  if (s < 50 || s > 250)
-    refuse_fatigue_input("tensile_strength_Pa", tensile_strength_Pa,
-                         "must lie between 345e6 and 1.724e9, where Neuber's constant was fitted");
-  const double root_of_length = kind == ShaftStressKind::torsion
-                                    ? 0.190 + s * (-2.51e-3 + s * (1.35e-5 - 2.67e-8 * s))
-                                    : 0.246 + s * (-3.08e-3 + s * (1.51e-5 - 2.67e-8 * s));
-  return 1 / (1 + root_of_length / std::sqrt(notch_radius_m / m_of_inch));
-}
-
-double fatigue_notch_factor(double stress_concentration, double sensitivity) {
-  require_input_between("stress_concentration", stress_concentration, 1, 100);
-  require_input_between("sensitivity", sensitivity, 0, 1);
-  return 1 + sensitivity * (stress_concentration - 1);
-}
-
 }  // namespace pipelines

@@ -85,46 +85,4 @@ double reliability_factor_of_97_5(double reliability);
 /// @throws std::invalid_argument if the reliability is outside 0.5 to 0.999999
 double marin_reliability_factor(double reliability);
 
-enum class Finish { ground, machined, hot_rolled, as_forged };
-enum class ShaftStressKind { bending, axial, torsion };
-
-/// What Shigley's endurance limit of a shaft depends on.
-struct MarinPart {
-  double tensile_strength_Pa = 0;
-  Finish finish = Finish::machined;                 ///< machined or cold-drawn
-  ShaftStressKind kind = ShaftStressKind::bending;  ///< k_c; with von Mises stresses take bending
-  double diameter_m = 0;                            ///< rotating round section
-  double reliability = 0.5;
-};
-
-/// Shigley's endurance limit S_e = k_a k_b k_c k_e S_e'.
-struct MarinLimit {
-  double specimen_Pa = 0;  ///< S_e' = 0.5 S_ut, at most 700 MPa (beyond S_ut = 1400 MPa), eq. (6-8)
-  double surface = 1;      ///< k_a = a S_ut^b, eq. (6-19): ground 1.58, -0.085; machined 4.51, -0.265;
-                           ///< hot-rolled 57.7, -0.718; as-forged 272, -0.995 with S_ut in MPa, table 6-2
-  double size = 1;         ///< k_b = 1.24 d^-0.107 (2.79 to 51 mm), 1.51 d^-0.157 (to 254 mm), eq. (6-20);
-                           ///< 1 below and for axial load, eq. (6-21)
-  double load = 1;         ///< k_c: bending 1, axial 0.85, torsion 0.59, eq. (6-26)
-  double reliability = 1;  ///< k_e
-  double limit_Pa = 0;     ///< S_e
-};
-
-/// Source: Shigley's Mechanical Engineering Design, 8th to 10th ed., chapter 6. (The 11th has other a and b.)
-/// k_a is at most 1.
-/// @throws std::invalid_argument if S_ut is not positive or above 3 GPa, the diameter not positive or above
-///         254 mm, or the reliability outside 0.5 to 0.999999
-MarinLimit marin_limit(const MarinPart& part);
-
-/// Notch sensitivity q = 1 / (1 + sqrt(a) / sqrt(r)) of steel, with Neuber's constant by cubic polynomials of
-/// S_ut in kpsi and sqrt(in): bending or axial 0.246, -3.08e-3, 1.51e-5, -2.67e-8; torsion 0.190, -2.51e-3,
-/// 1.35e-5, -2.67e-8.
-/// Source: Shigley, 8th to 10th ed., eq. (6-34), (6-35a) and (6-35b).
-/// @throws std::invalid_argument if the radius is not positive, or S_ut outside 50 to 250 kpsi (345 to 1724
-///         MPa), where the polynomials were fitted
-double notch_sensitivity(double tensile_strength_Pa, double notch_radius_m, ShaftStressKind kind);
-
-/// Fatigue notch factor K_f = 1 + q (K_t - 1), Shigley eq. (6-32).
-/// @throws std::invalid_argument if K_t is below 1 or q outside 0 to 1
-double fatigue_notch_factor(double stress_concentration, double sensitivity);
-
 }  // namespace pipelines

@@ -40,15 +40,6 @@ const GroupConstants& constants_of(MaterialGroup group) {
   return material_groups().at(std::size_t(group));
 }
 
-MaterialGroup material_group(const std::string& name) {
-  std::string known;
-  for (const GroupConstants& row : material_groups()) {
-    if (row.name == name) return row.group;
-    known += (known.empty() ? "" : ", ") + std::string(row.name);
-  }
-  throw std::invalid_argument("material group = \"" + name + "\": must be one of " + known);
-}
-
 void require_sound(const FatigueMaterial& material) {
   require_positive_input("tensile_strength_Pa", material.tensile_strength_Pa);
   require_input_between("tensile_strength_Pa", material.tensile_strength_Pa, 1e6, 3e9);

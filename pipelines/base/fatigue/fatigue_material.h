@@ -49,14 +49,10 @@ struct GroupConstants {
   std::optional<double> second_slope_normal, second_slope_shear;
 };
 
-/// All groups, in the order of the enumeration.
+/// Constants of all groups, in the order of the enumeration.
 const std::vector<GroupConstants>& material_groups();
 
 const GroupConstants& constants_of(MaterialGroup group);
-
-/// @param name  as in GroupConstants::name
-/// @throws std::invalid_argument that lists the names, if there is none such
-MaterialGroup material_group(const std::string& name);
 
 /// The material of a part, of its size: the strengths of the drawing's standard at the governing diameter,
 /// with the technological size factor K_d in them.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipelines/base/common/constants.h"
 #include "pipelines/base/fatigue/fatigue_input.h"
 
 namespace pipelines {
@@ -35,21 +34,6 @@ MeanStressSafety mean_stress_safety(const CyclicStress& stress, const MeanStress
   safety.asme_elliptic = 1 / std::hypot(a, to_yield);
   safety.yield = strength.yield_strength_Pa / (stress.amplitude_Pa + std::abs(stress.mean_Pa));
   return safety;
-}
-
-CyclicStress shaft_stress(const ShaftLoad& load, double diameter_m) {
-  require_positive_input("diameter_m", diameter_m);
-  require_non_negative_input("bending_amplitude_Nm", load.bending_amplitude_Nm);
-  require_non_negative_input("torque_amplitude_Nm", load.torque_amplitude_Nm);
-  require_finite_input("bending_mean_Nm", load.bending_mean_Nm);
-  require_finite_input("torque_mean_Nm", load.torque_mean_Nm);
-  require_input_between("bending_notch_factor", load.bending_notch_factor, 1, 100);
-  require_input_between("torsion_notch_factor", load.torsion_notch_factor, 1, 100);
-  const double per_torque = 16 / (pi * diameter_m * diameter_m * diameter_m);
-  const double of_bending = 2 * per_torque * load.bending_notch_factor;
-  const double of_torsion = std::sqrt(3.0) * per_torque * load.torsion_notch_factor;
-  return {std::hypot(of_bending * load.bending_amplitude_Nm, of_torsion * load.torque_amplitude_Nm),
-          std::hypot(of_bending * load.bending_mean_Nm, of_torsion * load.torque_mean_Nm)};
 }
 
 double mean_stress_sensitivity(double tensile_strength_Pa, double a_M, double b_M, double shear_factor) {

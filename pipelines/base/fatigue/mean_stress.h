@@ -37,22 +37,6 @@ struct MeanStressSafety {
 ///         is above the tensile strength, or a value is not finite
 MeanStressSafety mean_stress_safety(const CyclicStress& stress, const MeanStressStrength& strength);
 
-/// Moments and torques on a round solid section, and what its notch makes of them.
-struct ShaftLoad {
-  double bending_amplitude_Nm = 0, bending_mean_Nm = 0;  ///< M_a >= 0, M_m
-  double torque_amplitude_Nm = 0, torque_mean_Nm = 0;    ///< T_a >= 0, T_m
-  double bending_notch_factor = 1;                       ///< K_f >= 1, of the fatigue notch
-  double torsion_notch_factor = 1;                       ///< K_fs >= 1
-};
-
-/// Von Mises amplitude and mean of a solid round shaft in bending and torsion; with mean_stress_safety they
-/// are the DE-Goodman, DE-Gerber, DE-ASME elliptic and DE-Soderberg criteria, eq. (7-7) to (7-14).
-///   sigma_a' = sqrt((32 K_f M_a / (pi d^3))^2 + 3 (16 K_fs T_a / (pi d^3))^2), the mean likewise.
-/// The mean is not negative: the sign is lost in von Mises, which is conservative.
-/// Source: Shigley, 9th ed., eq. (7-5) and (7-6).
-/// @throws std::invalid_argument if d is not positive, an amplitude is negative, or a notch factor is below 1
-CyclicStress shaft_stress(const ShaftLoad& load, double diameter_m);
-
 /// Mean-stress sensitivity M of FKM: how much the endured amplitude falls from R = -1 to R = 0.
 ///   M_sigma = a_M 1e-3 R_m / MPa + b_M,  M_tau = f_W,tau M_sigma  (pass shear_factor = f_W,tau)
 /// A negative value (soft steel) counts as zero, which is conservative in tension.
@@ -92,7 +76,7 @@ double equivalent_reversed_amplitude_Pa(const CyclicStress& stress, double sensi
 struct EquivalentAmplitudeSlopes {
   double by_amplitude = 1, by_mean = 0;
 };
-/// On a border those of the field that haigh_field names.
+/// Slopes of the equivalent amplitude; on a border those of the field that haigh_field names.
 EquivalentAmplitudeSlopes equivalent_amplitude_slopes(const CyclicStress& stress, double sensitivity);
 
 }  // namespace pipelines

@@ -37,11 +37,6 @@ double crossing_of_powers(double above, double k, double below, double k2) {
 
 }  // namespace
 
-double haibach_slope(double slope) {
-  require_input_between("slope", slope, 1, 1000);
-  return 2 * slope - 1;
-}
-
 void require_sound(const SnCurve& curve) {
   require_positive_input("knee_amplitude_Pa", curve.knee_amplitude_Pa);
   require_positive_input("knee_cycles", curve.knee_cycles);

@@ -20,9 +20,6 @@ struct SnCurve {
   bool endures_together = false;
 };
 
-/// Haibach's second slope 2 k - 1.
-double haibach_slope(double slope);
-
 /// @throws std::invalid_argument if the knee is not positive, k is below 1 or k2 below k
 void require_sound(const SnCurve& curve);
 

@@ -25,7 +25,7 @@ const std::vector<WeldType>& weld_types();
 /// The type of that name; null: none.
 const WeldType* weld_type(const std::string& name);
 
-/// Of the type of that name; of another name 0.3, the largest of the table.
+/// Thickness exponent of the type of that name; of another name 0.3, the largest of the table.
 double thickness_exponent_of(const std::string& name);
 
 /// Whether it is one of IIW's classes of direct stress in steel, 36 to 160 MPa.

@@ -20,7 +20,7 @@ struct SurfaceHistory {
     const double c = std::cos(angle_rad), s = std::sin(angle_rad);
     return c * c * across_Pa + s * s * along_Pa + 2 * s * c * shear_Pa;
   }
-  /// Of one cycle that does the damage of all.
+  /// Range of one cycle that does the damage of all.
   double range_at(double angle_rad) const {
     std::vector<StressBlock> blocks;
     for (const auto& cycle : kinetics::rainflow_repeating(at(angle_rad)))
@@ -106,7 +106,7 @@ ToeStress toe_stress(const Eigen::Matrix<double, 6, Eigen::Dynamic>& history_Pa,
                                history_between(history_Pa, u, v),
                                weld_curve(detail, LoadAmplitude::variable)};
   const double degree = pi / 180;
-  constexpr int step = 3, n_steps = 20;  // of three degrees, to 60 either way
+  constexpr int step = 3, n_steps = 20;  // steps of three degrees, to 60 either way
   constexpr double sector = n_steps * step;
   std::vector<double> range_Pa;  // one beyond both ends
   for (int i = -n_steps - 1; i <= n_steps + 1; ++i) range_Pa.push_back(history.range_at(i * step * degree));

@@ -34,7 +34,6 @@ constexpr double ground_butt_or_longitudinal = 0.1;
 /// @throws std::invalid_argument if one is outside its range
 double thickness_factor(double thickness_m, double exponent = thickness_exponent::cruciform_or_attachment);
 
-/// Weld detail.
 struct WeldDetail {
   double fat_Pa = fat_load_carrying_fillet_Pa;  ///< range with 95 % survival at 2e6 cycles
   double thickness_m = 0.025;
@@ -60,7 +59,7 @@ struct ToeStress {
   bool is_principal = false;                ///< else the stress normal to the toe
   Eigen::Matrix<double, 6, 1> form;         ///< weights of the components that make that stress
   Eigen::ArrayXd stress_Pa;                 ///< one value for each instant
-  std::vector<kinetics::LoadCycle> cycles;  ///< of the period that repeats
+  std::vector<kinetics::LoadCycle> cycles;  ///< cycles of the period that repeats
 };
 
 /// Stress range across a toe. IIW: the principal stress in the surface, if its direction is within 60 degrees

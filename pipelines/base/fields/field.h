@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -25,51 +26,56 @@ struct Field {
   /// What people read of a row of summary.json; empty: the value by its quantity.
   std::function<std::string(const summary::Json& row)> shown;
 
-  /// "amplitude_Pa"
+  /// The key with its unit: "amplitude_Pa".
   std::string json_key() const { return key + quantity.suffix; }
 };
 
 /// A field with its value of a `Row`. Its words chain, so that it reads as one line of a table:
-/// FieldOf<Zone>("volume", quantities::volume, "above the level", value).labelled("volume")
+/// FieldOf<Zone>("volume", quantities::volume, "above the level", "volume", &Zone::volume_m3)
 template <typename Row>
 struct FieldOf : Field {
   std::function<summary::Json(const Row&)> value;  ///< in SI, of the quantity's shape
 
-  FieldOf(std::string name, const Quantity& of, std::string what_it_means,
-          std::function<summary::Json(const Row&)> get)
-      : value(std::move(get)) {
+  /// @param get  a function of a row, or a member of it; a member that is a number has to be finite
+  template <typename Get>
+  FieldOf(std::string name, const Quantity& of, std::string what_it_means, const Get& get)
+      : FieldOf(std::move(name), of, std::move(what_it_means), "", get) {}
+  /// @param title  under which people see it, with its unit
+  template <typename Get>
+  FieldOf(std::string name, const Quantity& of, std::string what_it_means, std::string title,
+          const Get& get) {
     key = name;
     column = std::move(name);
     quantity = of;
     meaning = std::move(what_it_means);
+    label = std::move(title);
     is_in_csv = of.shape != Shape::structure;
+    if constexpr (std::is_convertible_v<Get, double Row::*>)
+      value = [=](const Row& row) { return summary::number(row.*get); };
+    else
+      value = get;
   }
 
-  /// People see it, under this title and its unit.
-  FieldOf labelled(std::string title) const {
-    auto field = *this;
-    field.label = std::move(title);
-    return field;
-  }
   /// People see it, in the second table.
   FieldOf detail(std::string title) const {
-    auto field = labelled(std::move(title));
+    auto field = *this;
+    field.label = std::move(title);
     field.is_detail = true;
     return field;
   }
-  /// With other digits than the quantity's.
+  /// The field with other digits than the quantity's.
   FieldOf digits(const char* format) const {
     auto field = *this;
     field.quantity.format = format;
     return field;
   }
-  /// With a text made of the whole row, such as "8 h (3 to 27)".
+  /// The field with a text made of the whole row, such as "8 h (3 to 27)".
   FieldOf shown_as(std::function<std::string(const summary::Json& row)> text) const {
     auto field = *this;
     field.shown = std::move(text);
     return field;
   }
-  /// Under another title in CSV; of effects and blocks, before their names.
+  /// The field under another title in CSV; of effects and blocks, before their names.
   FieldOf in_column(std::string title) const {
     auto field = *this;
     field.column = std::move(title);
@@ -87,7 +93,8 @@ struct FieldOf : Field {
     field.is_in_summary = false;
     return field;
   }
-  /// Where there is none, summary.json has no key; where no row has one, people see no column.
+  /// The field that may have no value: then summary.json has no key; where no row has one, people see no
+  /// column.
   FieldOf optional() const {
     auto field = *this;
     field.is_optional = true;
@@ -118,7 +125,7 @@ FieldTable<Row> fields_of_part(const FieldTable<Part>& fields, const Of& of) {
   return taken;
 }
 
-/// Of a result that has no CSV file.
+/// The fields of a result that has no CSV file.
 template <typename Row>
 FieldTable<Row> without_csv(FieldTable<Row> fields) {
   for (auto& field : fields) field.is_in_csv = false;
@@ -129,7 +136,7 @@ FieldTable<Row> without_csv(FieldTable<Row> fields) {
 /// versions.
 const summary::Json& value_of(const summary::Json& row, const Field& field);
 
-/// Puts a value there.
+/// Puts a value where the field stands in a row.
 void set_value(summary::Json& row, const Field& field, summary::Json value);
 
 /// A row with all fields, also those that summary.json leaves to CSV.
@@ -150,6 +157,22 @@ summary::Json summary_row(const FieldTable<Row>& fields, const Row& of) {
     if (!value.is_null() || !field.is_optional) set_value(json, field, std::move(value));
   }
   return json;
+}
+
+/// Rows of a list with all fields, as CSV files have them.
+template <typename Row>
+summary::Json whole_rows(const FieldTable<Row>& fields, const std::vector<Row>& list) {
+  auto rows = summary::Json::array();
+  for (const auto& row : list) rows.push_back(whole_row(fields, row));
+  return rows;
+}
+
+/// Rows of a list as summary.json has them.
+template <typename Row>
+summary::Json summary_rows(const FieldTable<Row>& fields, const std::vector<Row>& list) {
+  auto rows = summary::Json::array();
+  for (const auto& row : list) rows.push_back(summary_row(fields, row));
+  return rows;
 }
 
 /// The fields without their values.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "pipelines/base/fields/shown_unit.h"
 #include "pipelines/base/names/name_lists.h"
 
 namespace pipelines {
@@ -17,7 +18,7 @@ using summary::Json;
 const std::array<std::string, 3> axes{"x", "y", "z"};
 const std::array<std::string, 6> components{"xx", "yy", "zz", "xy", "yz", "xz"};
 
-/// "safety_by", "findley"
+/// Parts of a key between its dots: "safety_by", "findley".
 std::vector<std::string> parts_of(const std::string& key) {
   std::vector<std::string> parts{""};
   for (const char c : key)
@@ -29,26 +30,36 @@ std::vector<std::string> parts_of(const std::string& key) {
 }
 
 /// The number itself, or that of a figure.
-const Json& number_in(const Json& value) {
+const Json& bare_number(const Json& value) {
   return value.is_object() && value.contains("value") ? value.at("value") : value;
 }
 
 std::string number_cell(const Json& value, double one) {
-  const auto& number = number_in(value);
+  const auto& number = bare_number(value);
   return number.is_number() ? fmt::format("{:.15g}", number.get<double>() / one) : std::string();
 }
 
-/// As a drive angle over all turns, in degrees.
+/// A moment as a drive angle over all turns, in degrees.
 std::string moment_cell(const Json& value) {
   if (!value.is_object()) return "";
   return fmt::format("{:.15g}", 360 * (value.at("turn").get<double>() - 1) +
                                     value.at("drive_angle_rad").get<double>() * 180 / pi);
 }
 
-std::string scalar_cell(const Field& field, const Json& value) {
+/// The unit that numbers of a row have which brings its own.
+ShownUnit own_unit_of(const Json& row) {
+  return shown_unit(row.value("unit", ""));
+}
+
+std::string scalar_cell(const Field& field, const Json& row) {
+  const auto& value = value_of(row, field);
   switch (field.quantity.shape) {
     case Shape::text:
       return value.is_string() ? value.get<std::string>() : std::string();
+    case Shape::own_unit:
+      return number_cell(value, own_unit_of(row).one);
+    case Shape::unit:
+      return own_unit_of(row).unit;
     case Shape::flag:
       return value.is_boolean() ? (value.get<bool>() ? "1" : "0") : "";
     case Shape::moment:
@@ -66,15 +77,15 @@ Json item(const Json& list, std::size_t i) {
 template <typename Cell>
 CsvColumn column(std::string title, const Field& field, const Json& rows, const Cell& cell) {
   std::vector<std::string> cells;
-  for (const auto& row : rows) cells.push_back(cell(value_of(row, field)));
+  for (const auto& row : rows) cells.push_back(cell(row));
   return {std::move(title), field.quantity.unit, std::move(cells)};
 }
 
 template <typename Names>
 void add_items(std::vector<CsvColumn>& columns, const Field& field, const Json& rows, const Names& titles) {
   for (std::size_t i = 0; i < titles.size(); ++i)
-    columns.push_back(column(titles[i], field, rows, [&](const Json& value) {
-      return number_cell(item(value, i), field.quantity.one);
+    columns.push_back(column(titles[i], field, rows, [&](const Json& row) {
+      return number_cell(item(value_of(row, field), i), field.quantity.one);
     }));
 }
 
@@ -85,7 +96,7 @@ std::vector<std::string> with_prefix(const std::string& prefix, const Names& nam
   return titles;
 }
 
-/// Of all rows, in the order in which they come.
+/// Names of the shares of all rows, in the order in which they come.
 std::vector<std::string> names_of_shares(const Field& field, const Json& rows) {
   std::vector<std::string> names;
   for (const auto& row : rows)
@@ -106,22 +117,23 @@ void add_columns(std::vector<CsvColumn>& columns, const Field& field, const Json
       return add_items(columns, field, rows, std::vector{field.column + "_least", field.column + "_most"});
     case Shape::shares:
       for (const auto& name : names_of_shares(field, rows))
-        columns.push_back(column(field.column + name, field, rows, [&](const Json& value) {
+        columns.push_back(column(field.column + name, field, rows, [&](const Json& row) {
+          const auto& value = value_of(row, field);
           return value.is_object() && value.contains(name) ? number_cell(value.at(name), field.quantity.one)
                                                            : std::string();
         }));
       return;
     default:
       columns.push_back(
-          column(field.column, field, rows, [&](const Json& value) { return scalar_cell(field, value); }));
+          column(field.column, field, rows, [&](const Json& row) { return scalar_cell(field, row); }));
   }
 }
 
 /// What rounds to zero has no sign.
-std::string formatted(const Json& value, const Quantity& quantity) {
-  const auto& number = number_in(value);
+std::string formatted(const Json& value, const Quantity& quantity, double one) {
+  const auto& number = bare_number(value);
   if (!number.is_number()) return "-";
-  auto text = fmt::format(fmt::runtime(quantity.format), number.get<double>() / quantity.one);
+  auto text = fmt::format(fmt::runtime(quantity.format), number.get<double>() / one);
   const bool is_zero = text.find_first_of("123456789") == std::string::npos;
   return is_zero && text[0] == '-' ? text.substr(1) : text;
 }
@@ -197,20 +209,25 @@ std::string shown_value(const Field& field, const Json& row) {
   if (field.shown) return field.shown(row);
   const auto& value = value_of(row, field);
   const auto& quantity = field.quantity;
+  const auto text_of = [&](const Json& number) { return formatted(number, quantity, quantity.one); };
   switch (quantity.shape) {
     case Shape::text:
       return value.is_string() ? value.get<std::string>() : "-";
     case Shape::flag:
       return value.is_boolean() && value.get<bool>() ? "yes" : "-";
     case Shape::position:
-      return fmt::format("({}, {}, {})", formatted(item(value, 0), quantity),
-                         formatted(item(value, 1), quantity), formatted(item(value, 2), quantity));
+      return fmt::format("({}, {}, {})", text_of(item(value, 0)), text_of(item(value, 1)),
+                         text_of(item(value, 2)));
+    case Shape::own_unit:
+      return formatted(value, quantity, own_unit_of(row).one);
+    case Shape::unit:
+      return own_unit_of(row).unit;
     case Shape::moment:
       return value.is_object() ? fmt::format("turn {}, {} deg", value.at("turn").get<int>(),
-                                             formatted(value.at("drive_angle_rad"), quantity))
+                                             text_of(value.at("drive_angle_rad")))
                                : "-";
     default:
-      return formatted(value, quantity);
+      return text_of(value);
   }
 }
 
@@ -222,15 +239,15 @@ ShownRows shown_rows(const std::vector<Field>& fields, const Json& rows, std::si
 }
 
 ShownRows shown_named_rows(const std::string& title, const std::vector<Field>& fields,
-                           const Json& rows_by_name) {
+                           const Json& rows_by_name, int first) {
   auto rows = Json::array();
-  for (const auto& [name, row] : rows_by_name.items()) rows.push_back(row);
+  for (const auto& row : rows_by_name) rows.push_back(row);
   auto table = shown_rows(fields, rows, rows.size());
   if (table.titles.empty()) return {};
   table.titles.insert(table.titles.begin(), title);
   auto cells = table.cells.begin();
   for (const auto& [name, row] : rows_by_name.items()) {
-    cells->insert(cells->begin(), name);
+    cells->insert(cells->begin(), rows_by_name.is_array() ? std::to_string(first++) : name);
     ++cells;
   }
   return table;

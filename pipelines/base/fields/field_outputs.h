@@ -29,21 +29,31 @@ struct ShownRows {
 /// @param most  so many rows from the first
 ShownRows shown_rows(const std::vector<Field>& fields, const summary::Json& rows, std::size_t most);
 
-/// The first table of an object of rows by name, the names first; nothing where people see no field.
+/// The first table of an object of rows by name, or of a list by number; the names first. Nothing where
+/// people see no field.
 /// @param title  over the names
+/// @param first  number
 ShownRows shown_named_rows(const std::string& title, const std::vector<Field>& fields,
-                           const summary::Json& rows_by_name);
+                           const summary::Json& rows_by_name, int first = 1);
 
 /// The second table: the first labelled field and the details; no cells without details.
 ShownRows shown_details(const std::vector<Field>& fields, const summary::Json& rows, std::size_t most);
 
-/// On a terminal: texts to the left, numbers to the right; nothing without rows.
+/// Prints rows on a terminal: texts to the left, numbers to the right; nothing without rows.
 /// @param title  over the first column, in place of its own
 /// @param notes  lines below each row; none: no lines
 void print_rows(std::ostream& out, const std::string& title, const ShownRows& rows,
                 const std::vector<std::vector<std::string>>& notes = {});
 
-/// For a README: a line of each field with column and unit in CSV, key of summary.json, title in tables for
+/// Prints all fields of rows, those that summary.json leaves out too.
+template <typename Row>
+void print_list(std::ostream& out, const FieldTable<Row>& fields, const std::vector<Row>& list) {
+  const auto rows = whole_rows(fields, list);
+  const auto table = shown_rows(fields_of(fields), rows, rows.size());
+  if (!table.titles.empty()) print_rows(out, table.titles.front(), table);
+}
+
+/// Table for a README: a line of each field with column and unit in CSV, key of summary.json, title in tables for
 /// people, and meaning.
 std::string markdown_table(const std::vector<Field>& fields);
 

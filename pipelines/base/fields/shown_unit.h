@@ -11,7 +11,7 @@ namespace pipelines {
 struct ShownUnit {
   std::string unit;
   double one = 1;  ///< in the SI unit
-  /// With fifteen digits where the unit is another.
+  /// The value with fifteen digits where the unit is another.
   double value(double si) const;
 };
 

@@ -14,23 +14,24 @@ class Staging;
 /// Says of a file that is there whether this program has written it.
 using IsOwnFile = std::function<bool(const std::filesystem::path&)>;
 
-/// Where to write until the content is complete. Without commit() the destructor removes what was written and
-/// the target keeps its old content; so it does when an exception passes or the process is killed. What a
-/// killed process left behind is removed when something is written into the same directory again.
+/// A file that is written under another name until its content is complete. Without commit() the destructor
+/// removes what was written and the target keeps its old content; so it does when an exception passes or the
+/// process is killed. What a killed process left behind is removed when something is written into the same
+/// directory again.
 ///
 /// A target below a staging folder of this process is written in its place there, and commit() enters it into
 /// the list of what belongs to the results.
 class AtomicFile {
 public:
   /// Makes the directory of the target if it is missing; creates no file yet.
-  /// @param is_own  of a file under the target's name: whether it may be replaced; none: any regular file may
+  /// @param is_own  whether a file under the target's name may be replaced; none: any regular file may
   /// @throws std::filesystem::filesystem_error if the directory cannot be made
   explicit AtomicFile(std::filesystem::path target, IsOwnFile is_own = {});
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Where to write. Close the file before commit().
+  /// The file to write into. Close it before commit().
   const std::filesystem::path& temporary() const noexcept { return temporary_; }
 
   /// Puts the written file in the place of the target. File and name are on the disk when it returns: a loss
@@ -46,11 +47,11 @@ public:
 private:
   std::filesystem::path target_, temporary_;
   IsOwnFile is_own_;
-  std::unique_ptr<Staging> staging_;  ///< of this file alone
+  std::unique_ptr<Staging> staging_;  ///< staging of this file alone
   bool committed_ = false;
 };
 
-/// @param option  that named the file, for the message; empty: none did
+/// @param option  the option that named the file, for the message; empty: none did
 /// @throws OptionError naming option, file and remedy if a file is there that must not be replaced
 ///         (replaceable.h), or that is not this program's. An empty one is nobody's.
 void require_own(const std::filesystem::path& file, const IsOwnFile& is_own, const std::string& option = "");

@@ -191,7 +191,7 @@ void read_dataset(hid_t root, const std::string& file, const std::string& path, 
     fail(file, path, "cannot read the dataset");
 }
 
-/// Of a dataset, and as much room in memory.
+/// Rows of a dataset, and as much room in memory.
 struct Rows {
   Rows(hid_t dataset, const std::string& file, const std::string& path, std::size_t first, std::size_t n)
       : in_file(H5Dget_space(dataset), H5Sclose, file, path, "no data space"),

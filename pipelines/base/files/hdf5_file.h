@@ -41,7 +41,7 @@ public:
   void write(const std::string& object, const std::vector<std::string>& values, const Hdf5Label& label = {});
   /// A dataset of doubles whose rows, of its first index, are written by write_rows.
   void make(const std::string& object, const std::vector<std::size_t>& shape, const Hdf5Label& label = {});
-  /// @param values  of n_rows rows
+  /// @param values  values of n_rows rows
   void write_rows(const std::string& object, const double* values, std::size_t first_row, std::size_t n_rows);
   void make_group(const std::string& object);
   /// @param object  an existing group ("/" for the file as a whole) or dataset

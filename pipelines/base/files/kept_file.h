@@ -22,7 +22,7 @@ void append_checksum(const std::filesystem::path& file, std::string_view key);
 /// Reads the whole file if the key fits.
 KeptFile check_kept_file(const std::filesystem::path& file, std::string_view key);
 
-/// As the first of the ranks that share a body finds it. Called on all of them.
+/// What the first of the ranks that share a body finds. Called on all of them.
 KeptFile checked_on_first_rank(const std::filesystem::path& file, std::string_view key);
 
 /// The same for a key of which only its text_hash is known.
@@ -36,7 +36,7 @@ inline constexpr const char* kept_attribute = "arrangement";
 /// of the two titles is enough, or by the begin of an HDF5 file with `kept_attribute`.
 bool is_own_kept_file(const std::filesystem::path& file);
 
-/// For the user: what a damaged file is called, and what becomes of it.
+/// Words for the user: what a damaged file is called, and what becomes of it.
 std::string damaged_file_text(const std::filesystem::path& file);
 
 }  // namespace pipelines

@@ -31,7 +31,8 @@ bool is_input(const fs::path& file) {
                      [&](const NotedInput& input) { return fs::equivalent(input.file, file, ignored); });
 }
 
-/// Of a pipe nothing is read: what was taken from it would be missing later.
+/// Hash of a regular file; empty for others. From a pipe nothing is read: what was taken from it would be
+/// missing later.
 std::string hash_or_nothing(const fs::path& file) {
   std::error_code none;
   if (!fs::is_regular_file(file, none)) return "";

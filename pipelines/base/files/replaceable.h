@@ -18,7 +18,7 @@ struct NotedInput {
   std::string hash;            ///< content_hash when it was noted; empty: no regular file that can be read
 };
 
-/// In the order in which they were noted, each once.
+/// Inputs in the order in which they were noted, each once.
 std::vector<NotedInput> noted_inputs();
 
 /// Whether they could be read, and have the same content now.

@@ -31,7 +31,8 @@ void append_utf8(std::string& text, std::uint32_t c) {
   add(0x80 | (c & 0x3F));
 }
 
-/// None where a surrogate stands alone or the last unit is half (RFC 2781, section 2.2).
+/// Text of UTF-16 bytes; none where a surrogate stands alone or the last unit is half (RFC 2781, section
+/// 2.2).
 std::optional<std::string> from_utf16(std::string_view bytes, bool little_endian) {
   if (bytes.size() % 2 != 0) return std::nullopt;
   const auto unit = [&](std::size_t i) {
@@ -55,8 +56,8 @@ std::optional<std::string> from_utf16(std::string_view bytes, bool little_endian
   return text;
 }
 
-/// None where a byte has no character. Source: the table CP1252.TXT of the Unicode consortium, 0x80 to 0x9F;
-/// all others are those of Latin-1.
+/// Text of Windows-1252 bytes; none where a byte has no character. Source: the table CP1252.TXT of the
+/// Unicode consortium, 0x80 to 0x9F; all others are those of Latin-1.
 std::optional<std::string> from_windows_1252(std::string_view bytes) {
   constexpr std::uint16_t upper[32] = {0x20AC, 0,      0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
                                        0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0,      0x017D, 0,

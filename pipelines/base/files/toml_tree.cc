@@ -30,7 +30,7 @@ public:
     }
   }
 
-  /// From `begin` to `end`, cut at the end of the first line.
+  /// Text from `begin` to `end`, cut at the end of the first line.
   std::string cut(const toml::source_region& region) const {
     if (region.begin.line < 1 || region.begin.line > lines_.size()) return {};
     std::string_view line = lines_[region.begin.line - 1];

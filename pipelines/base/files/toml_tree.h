@@ -35,9 +35,9 @@ struct TomlNode {
 
 struct TomlEntry {
   std::string key;
-  SourcePosition at;  ///< of the key
+  SourcePosition at;  ///< position of the key
   TomlNode value;
-  bool is_set = false;  ///< not in the file: by --set, --vary or a block of [[duty]]
+  bool is_set = false;  ///< not in the file: set by --set, --vary or a block of [[duty]]
 };
 
 /// "a table", "a text", "a whole number" ...

@@ -15,7 +15,7 @@ constexpr std::uintmax_t most_bytes_of_a_result = 500'000'000;
 /// A table's numbers take as much memory as its text, and are read at 50 MB/s.
 constexpr std::uintmax_t most_bytes_of_a_table = 500'000'000;
 
-/// "8.0 GB", "12 MB".
+/// A size for people: "8.0 GB", "12 MB".
 inline std::string size_text(std::uintmax_t bytes) {
   const bool gigabytes = bytes >= 1'000'000'000;
   const auto tenths = bytes / (gigabytes ? 100'000'000 : 100'000);

@@ -8,7 +8,7 @@
 namespace pipelines {
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
-  constexpr std::size_t longest = 80;  // of a name worth comparing: keeps the table small for garbage
+  constexpr std::size_t longest = 80;  // longest name worth comparing: keeps the table small for garbage
   std::string nearest;
   if (name.size() > longest) return nearest;
   std::size_t fewest = 0;

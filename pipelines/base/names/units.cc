@@ -172,7 +172,7 @@ NumberAndRest split(const std::string& quantity, const std::string& si_unit) {
   return {number, rest};
 }
 
-/// From a unit as written to an SI unit.
+/// Conversion from a unit as written to an SI unit.
 struct Conversion {
   Converter converter;
   double turns_to_radians = 1;
@@ -188,7 +188,8 @@ std::mutex& parser_mutex() {
   return mutex;
 }
 
-/// Of the texts that were read before: sweeps read a scene thousands of times. Emptied beyond 1000 entries.
+/// Conversions of the texts that were read before: sweeps read a scene thousands of times. Emptied beyond
+/// 1000 entries.
 std::map<std::pair<std::string, std::string>, Conversion>& known_conversions() {
   static std::map<std::pair<std::string, std::string>, Conversion> known;
   constexpr std::size_t most = 1000;

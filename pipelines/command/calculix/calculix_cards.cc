@@ -13,9 +13,9 @@
 namespace pipelines {
 namespace {
 
-const std::string about_ends = "); N, N m, s";  // of the first line
+const std::string about_ends = "); N, N m, s";  // end of the first line
 
-constexpr std::size_t longest_name = 80;  // of CalculiX
+constexpr std::size_t longest_name = 80;  // longest name that CalculiX reads
 
 /// One load of one node set in one degree of freedom.
 struct Card {

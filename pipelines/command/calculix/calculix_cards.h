@@ -11,9 +11,10 @@ namespace pipelines {
 
 /// The text of the two files.
 struct CalculixCards {
-  std::string amplitudes;              ///< model data, before the first *STEP
-  std::string loads;                   ///< history data, within a *STEP
-  std::vector<std::string> node_sets;  ///< that the user's model has to define, each one node or spread alike
+  std::string amplitudes;  ///< model data, before the first *STEP
+  std::string loads;       ///< history data, within a *STEP
+  /// Node sets that the user's model has to define, each one node or spread alike.
+  std::vector<std::string> node_sets;
 };
 
 /// One *AMPLITUDE per load that is not zero throughout, in N or N m over seconds, of loads that repeat closed

@@ -39,7 +39,7 @@ private:
     std::int32_t node = 0;
     std::size_t n_parents = 0, n_corners = 0;  ///< corners first
     std::array<std::int32_t, n_serendipity_nodes> parents{};
-    double edge_weight = 0;  ///< that of corners is -1/4
+    double edge_weight = 0;  ///< weight of the middles of edges; the corners' is -1/4
   };
   std::vector<char> kept_;
   std::vector<Dropped> dropped_;

@@ -152,7 +152,8 @@ CheckedBody measured(const CheckReport& report, const BodyScene& body, const Mes
 /// A large mesh keeps silent for long: it is told before.
 void tell_what_takes_long(const Scene& scene) {
   constexpr double many_cells = 1e5;
-  constexpr double s_per_cell = 1e-4;  // of the vibratory mill's shaft with 64 cells on each fillet's quarter
+  // Time of the vibratory mill's shaft with 64 cells on each fillet's quarter.
+  constexpr double s_per_cell = 1e-4;
   for (const auto& body : scene.bodies) {
     const auto* shaft = body.shaft();
     if (shaft == nullptr || !shaft->keyways.empty()) continue;

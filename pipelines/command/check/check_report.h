@@ -21,7 +21,7 @@ struct CheckedPort {
 struct CheckedBody {
   std::string name;
   const MeshedBody* meshed = nullptr;
-  std::vector<MassFigure> masses;  ///< of the machine beside those of mesh and added masses
+  std::vector<MassFigure> masses;  ///< masses of the machine beside those of mesh and added masses
   std::vector<CheckedPort> ports;
   bool ports_are_known = true;  ///< a mesh alone finds those of a STEP file, and the loads that enter there
   std::vector<ModelForecast> forecast;
@@ -34,7 +34,7 @@ struct CheckReport {
   Scene scene;  ///< with the effects that are chosen
   std::vector<MeshedBody> meshed;
   std::vector<CheckedBody> bodies;
-  std::vector<std::string> warnings;  ///< of the loads; the scene has its own
+  std::vector<std::string> warnings;  ///< warnings of the loads; the scene has its own
   std::vector<std::string> blocks;    ///< "heavy: 25 % of the time"
   std::optional<RunForecast> run;     ///< none without bodies
 };
@@ -43,7 +43,7 @@ struct CheckReport {
 /// @param all  also descriptions, defaults, masses, forecasts of all models, sizes of effects, channels
 void print_check(std::ostream& out, const CheckReport& report, bool all);
 
-/// All of it.
+/// The whole report as JSON.
 std::string check_json(const CheckReport& report);
 
 }  // namespace pipelines

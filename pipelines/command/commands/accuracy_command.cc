@@ -28,7 +28,7 @@ struct AccuracyCommandOptions : SceneOptions {
   std::string tolerance, time_limit;  ///< empty: the scene's, or the usual ones
   std::string reference;              ///< a known stress; empty: none
   bool grid_convergence = false;      ///< systematic meshes too
-  int n_repeats = 1;                  ///< of each run
+  int n_repeats = 1;                  ///< repeats of each run
   int n_threads = all_cores;
 };
 

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 struct InitOptions {
   std::string kind;
-  fs::path output;  ///< of the scene; empty: the default
+  fs::path output;  ///< file of the scene; empty: the default
 };
 
 std::vector<std::string> template_kinds() {

@@ -96,7 +96,7 @@ void loads(const LoadsCommandOptions& options, std::ostream& out) {
   }
   StageClock clock(progress_on_stderr(options.verbosity()));
   auto history = loads_of(scene, clock);
-  std::vector<BearingScene> bearings;  // those at a port of a body need `run`
+  std::vector<BearingScene> bearings;  // bearings at a port of a body need `run`
   for (const auto& bearing : scene.bearings)
     if (scene.bodies.empty() || force_of(bearing.load, history, {})) bearings.push_back(bearing);
   const auto lives = bearing_lives(bearings, history, {});

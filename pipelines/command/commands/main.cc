@@ -81,7 +81,7 @@ std::vector<pipelines::CommandNames> names_of_commands(const CLI::App& app) {
   return commands;
 }
 
-/// Of a wrong command line: prints what is wrong with it.
+/// Prints what is wrong with a command line.
 /// @param arguments  without the program's name
 /// @return 0 for --help and --version
 int refuse(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments) {
@@ -99,7 +99,7 @@ class CommonEnd {
 public:
   CommonEnd() { MPI_Comm_dup(MPI_COMM_WORLD, &communicator_); }  // what ranks do together has the other one
 
-  /// @param failure  of this rank; its code is done if there is none
+  /// @param failure  failure of this rank; its code is done if there is none
   /// @param is_told  that has been printed
   /// @return what the program ends with
   int end(const pipelines::Failure& failure, bool is_told) const {

@@ -34,7 +34,7 @@ void ports(const PortsCommandOptions& options, std::ostream& out) {
   StagedResults staged(directory, names_of(names), "-o", variant);
   StageClock clock(progress_on_stderr(options.verbosity()));
 
-  // All meshes before any file: a body that cannot be meshed leaves nothing behind.
+  // All meshes are made before any file: a body that cannot be meshed leaves nothing behind.
   std::vector<meshes::BodyMesh> meshed;
   std::vector<fem::Nodes> nodes;
   for (const auto& body : scene.bodies)

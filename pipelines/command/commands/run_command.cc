@@ -200,7 +200,7 @@ std::vector<std::string> body_names(const Scene& scene) {
   return names;
 }
 
-/// Of a drive train, written into the folder torsion; nothing for other machines.
+/// Torsion of a drive train, written into the folder torsion; nothing for other machines.
 std::optional<TorsionReport> torsion_of(const Scene& scene, const Machine& machine,
                                         const std::filesystem::path& directory, StageClock& clock) {
   if (!kind_of(machine).is_torsional()) return std::nullopt;
@@ -211,7 +211,7 @@ std::optional<TorsionReport> torsion_of(const Scene& scene, const Machine& machi
 }
 
 /// Lives of bearings over the operating blocks of a scene without bodies; none: it has no blocks.
-/// @param loads  of the scene's own running; takes the blocks' warnings
+/// @param loads  loads of the scene's own running; takes the blocks' warnings
 std::optional<DutyResult> duty_of_loads(const Scene& given, const Scene& scene, kinetics::LoadHistory& loads,
                                         int n_threads, StageClock& clock) {
   if (scene.duty.empty()) return std::nullopt;
@@ -223,7 +223,7 @@ std::optional<DutyResult> duty_of_loads(const Scene& given, const Scene& scene, 
   return duty;
 }
 
-/// One rank is enough.
+/// Runs the load stage alone, on one rank: that is enough.
 void run_load_stage(const Request& request, const Scene& given, StageClock& clock) {
   if (!is_first_rank()) return;
   work_on_bodies_alone();
@@ -303,7 +303,7 @@ bool is_too_late_to_draw(const RequestedAccuracy& accuracy, std::chrono::steady_
 }
 
 /// The files of all bodies, and the loads'. While one body is drawn, another thread writes what comes next.
-/// @param start  of the run, for its limit of time
+/// @param start  start of the run, for its limit of time
 /// @return why pictures are missing
 std::vector<std::string> write_and_draw(const Request& request, const Scene& scene, const SceneRun& run,
                                         const DutyResult* duty, const std::filesystem::path& folder,

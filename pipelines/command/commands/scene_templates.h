@@ -15,10 +15,10 @@ struct TemplateFile {
 struct SceneTemplate {
   std::string kind;  ///< as on the command line
   TemplateFile scene;
-  std::vector<TemplateFile> inputs;  ///< that the scene names, to lie beside it
+  std::vector<TemplateFile> inputs;  ///< files that the scene names, to lie beside it
 };
 
-/// In the order in which they are offered.
+/// Templates in the order in which they are offered.
 const std::vector<SceneTemplate>& scene_templates();
 
 }  // namespace pipelines

@@ -20,7 +20,7 @@ std::vector<std::string> with_command(std::vector<std::string> arguments,
 
 /// What is wrong with the first argument, if it is no command, or else with the first option that the command
 /// does not have: one line with the nearest name; empty if none of this is wrong.
-/// @param arguments  of with_command, which the parser has refused
+/// @param arguments  arguments of with_command, which the parser has refused
 std::string unknown_name(const std::vector<std::string>& arguments,
                          const std::vector<CommandNames>& commands);
 

@@ -11,7 +11,7 @@ namespace pipelines {
 
 /// A quantity. Shares are written with their unit, since a bare 0.5 may mean 0.5 % or 50 %; a bare time is in
 /// seconds, any other bare number is refused.
-/// @param unit  of the result, SI; "1" for a share
+/// @param unit  unit of the result, SI; "1" for a share
 /// @throws OptionError naming option, value and remedy
 double option_in_si(const char* option, const std::string& text, const std::string& unit);
 

@@ -12,7 +12,7 @@ namespace pipelines {
 /// --force of a command that writes a directory.
 void add_force_option(CLI::App& command, SceneOptions& options);
 
-/// "results/mill" of mill.toml.
+/// The default directory: "results/mill" of mill.toml.
 std::filesystem::path default_directory(const SceneOptions& options, const std::string& ending = "");
 
 /// What the scene and --set make; with --force it replaces others.

@@ -162,7 +162,7 @@ std::vector<std::string> asked_on_command_line(const SweepCommandOptions& option
 }
 
 /// The options of an earlier sweep.
-/// @param asked  of asked_on_command_line
+/// @param asked  what asked_on_command_line gives
 /// @throws std::exception where a number is none
 SweepCommandOptions options_of(const std::vector<std::string>& asked) {
   SweepCommandOptions options;
@@ -179,7 +179,7 @@ SweepCommandOptions options_of(const std::vector<std::string>& asked) {
 }
 
 /// Whether a sweep has every point of an earlier one of the scene, and its figures: it then adds to that one.
-/// @param plan       of the sweep
+/// @param plan       plan of the sweep
 /// @param of_scene   what the scene says of sweeps
 /// @param asked      asked_on_command_line of the earlier one
 bool has_points_of(const SweepPlan& plan, bool loads_only, const SweepRequest& of_scene,
@@ -211,7 +211,7 @@ std::vector<std::string> settings_of_points(const SweepCommandOptions& options) 
 /// What a sweep is about, the same on all ranks.
 struct Sweep {
   TomlNode tree;
-  std::vector<std::string> settings;  ///< of all points
+  std::vector<std::string> settings;  ///< settings of all points
   SweepRequest request;
   SweepPlan plan;
   Variant variant;
@@ -261,7 +261,7 @@ struct Sweep {
   }
 };
 
-/// By rank and point: whether the rank computes it. The same on all ranks.
+/// Whether a rank computes a point, by rank and point. The same on all ranks.
 std::vector<std::vector<char>> points_of_ranks(const SweepRun& run) {
   const int n_ranks = fem::n_ranks(MPI_COMM_WORLD);
   const auto rank_of_point = deal_points(run.groups(n_ranks), n_ranks);
@@ -292,7 +292,7 @@ struct KnownRows {
   SweepJournal journal;
   std::vector<std::optional<SweepRow>> rows;
 
-  /// Once every point was read.
+  /// Called once every point was read.
   KnownRows(const SweepCommandOptions& options, const Sweep& sweep, const std::filesystem::path& directory)
       : journal(directory / "journal",
                 journal_key(options, sweep.accuracy, sweep.request.zones, options.n_threads)),
@@ -300,7 +300,7 @@ struct KnownRows {
                            : journal.known(sweep.plan)) {}
 };
 
-/// On every rank but the first.
+/// What every rank but the first does.
 void sweep_beside_first_rank(const SweepCommandOptions& options) {
   work_on_bodies_alone();
   const Sweep sweep(options);
@@ -367,8 +367,8 @@ void carry_out(const SweepCommandOptions& options, std::ostream& out) {
   const Sweep sweep(options);
   const auto& [tree, settings, request, plan, variant, directory, first, accuracy, loads_only] = sweep;
   StageClock clock(progress_on_stderr(options.verbosity()));
-  // It outlives the charts: its end unloads Open MPI's libraries, and nothing is drawn in a process that
-  // these have left.
+  // The environment outlives the charts: its end unloads Open MPI's libraries, and nothing is drawn in a
+  // process that these have left.
   std::optional<fem::Environment> environment;
   StagedResults staged(directory, sweep_names(), "-o", variant);
   auto rows = run_points(options, sweep, staged.directory(), clock, environment);

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "pipelines/base/common/errors.h"
+#include "pipelines/base/fields/field_outputs.h"
 #include "pipelines/base/fields/shown_unit.h"
 #include "pipelines/base/names/nearest_name.h"
 
@@ -38,7 +39,7 @@ bool have_same_figures(const SweepRow& a, const SweepRow& b) {
                     });
 }
 
-/// As one word of a shell's command line.
+/// The text as one word of a shell's command line.
 std::string quoted(const std::string& text) {
   if (text.find_first_of("\"$`\\!") == std::string::npos) return '"' + text + '"';
   std::string word = "'";
@@ -100,7 +101,7 @@ std::vector<std::string> shown_figures(const std::vector<std::string>& named,
 std::vector<std::string> keys_without_effect(const SweepPlan& plan, const std::vector<SweepRow>& rows) {
   std::vector<std::string> keys;
   for (std::size_t v = 0; v < plan.variations.size(); ++v) {
-    std::map<std::vector<std::string>, std::size_t> first;  // of the points with the same other values
+    std::map<std::vector<std::string>, std::size_t> first;  // first of the points with the same other values
     bool is_compared = false, is_same = true;
     for (std::size_t p = 0; p < rows.size() && is_same; ++p) {
       auto others = plan.points[p].values;
@@ -129,43 +130,33 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 void print_points(std::ostream& out, const SweepPlan& plan, const std::vector<SweepRow>& rows,
                   const std::vector<std::string>& figures) {
   constexpr std::size_t most_lines = 60;
-  std::vector<std::vector<std::string>> lines(1);
-  lines.front().push_back("point");
-  for (const auto& variation : plan.variations) lines.front().push_back(variation.key);
+  ShownRows table{{"point"}, {}};
+  for (const auto& variation : plan.variations) table.titles.push_back(variation.key);
   std::vector<bool> has_error;
   for (const auto& figure : figures) {
     has_error.push_back(std::any_of(rows.begin(), rows.end(), [&](const SweepRow& row) {
       return !std::isnan(row.figure(figure + ".error"));
     }));
-    lines.front().push_back(with_unit(figure, shown_unit(unit_of(rows, figure)).unit));
-    if (has_error.back()) lines.front().push_back("+-");
+    table.titles.push_back(with_unit(figure, shown_unit(unit_of(rows, figure)).unit));
+    if (has_error.back()) table.titles.emplace_back("+-");
   }
+  std::vector<std::vector<std::string>> notes;
   for (std::size_t p = 0; p < rows.size() && p < most_lines; ++p) {
-    lines.push_back({std::to_string(p + 1)});
-    for (const auto& value : plan.points[p].values) lines.back().push_back(value);
-    if (!rows[p].refused.empty()) {
-      lines.back().push_back("refused: " + rows[p].refused.substr(0, rows[p].refused.find('\n')));
-      continue;
-    }
+    const auto& refused = rows[p].refused;
+    notes.push_back({refused.empty() ? "" : "refused: " + refused.substr(0, refused.find('\n'))});
+    auto& cells = table.cells.emplace_back(plan.points[p].values);
+    cells.insert(cells.begin(), std::to_string(p + 1));
+    const auto add = [&](const std::string& figure, const char* format, double one) {
+      const double value = rows[p].figure(figure) / one;
+      cells.push_back(std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value));
+    };
     for (std::size_t f = 0; f < figures.size(); ++f) {
       const double one = shown_unit(unit_of(rows, figures[f])).one;
-      lines.back().push_back(fmt::format("{:.6g}", rows[p].figure(figures[f]) / one));
-      if (has_error[f])
-        lines.back().push_back(fmt::format("{:.2g}", rows[p].figure(figures[f] + ".error") / one));
+      add(figures[f], "{:.6g}", one);
+      if (has_error[f]) add(figures[f] + ".error", "{:.2g}", one);
     }
   }
-  std::vector<std::size_t> widths;
-  for (const auto& line : lines)
-    for (std::size_t c = 0; c < line.size() && c < lines.front().size(); ++c) {
-      if (c == widths.size()) widths.push_back(0);
-      if (line[c].rfind("refused", 0) != 0) widths[c] = std::max(widths[c], line[c].size());
-    }
-  for (const auto& line : lines) {
-    std::string text = " ";
-    for (std::size_t c = 0; c < line.size(); ++c)
-      text += fmt::format(" {:>{}}", line[c], c < widths.size() ? widths[c] : 0);
-    out << text << '\n';
-  }
+  print_rows(out, "point", table, notes);
   if (rows.size() > most_lines) out << fmt::format("  ... {} more in sweep.csv\n", rows.size() - most_lines);
 }
 

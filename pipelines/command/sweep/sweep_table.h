@@ -20,7 +20,7 @@ bool is_governing(const std::string& figure);
 std::vector<std::string> shown_figures(const std::vector<std::string>& named,
                                        const std::vector<SweepRow>& rows);
 
-/// In SI, of the first row that has the figure; empty if none has it.
+/// SI unit of a figure, from the first row that has it; empty if none has it.
 std::string unit_of(const std::vector<SweepRow>& rows, const std::string& figure);
 std::string with_unit(const std::string& name, const std::string& unit);
 
@@ -36,7 +36,7 @@ void print_extremes(std::ostream& out, const SweepCommandOptions& options, const
                     const std::vector<SweepRow>& rows, const std::vector<std::string>& figures);
 
 /// What becomes of each zone over the points.
-/// @param numbers  of the zones, by point (follow_zones)
+/// @param numbers  numbers of the zones, by point (follow_zones)
 void print_zones(std::ostream& out, const std::vector<SweepRow>& rows,
                  const std::vector<std::vector<int>>& numbers);
 

@@ -10,11 +10,11 @@ namespace pipelines {
 
 /// Recovery-based estimates (fem::EnergyError), relative, in the norm of energy.
 struct EnergyErrors {
-  std::vector<double> channels;  ///< of each unit load; empty where no cells were solved (cheap models)
+  std::vector<double> channels;  ///< error of each unit load; empty where no cells were solved (cheap models)
   double over_cycle = 0;         ///< largest error at an instant over the largest stress at one
 };
 
-/// @param factors  of the channels (rows) over the cycle
+/// @param factors  factors of the channels (rows) over the cycle
 EnergyErrors energy_errors(const fem::EnergyError& channels, const Eigen::ArrayXXd& factors);
 
 }  // namespace pipelines

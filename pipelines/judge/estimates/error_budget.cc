@@ -163,8 +163,8 @@ namespace {
 constexpr const char* loads_between_instants = "loads between the instants, which these do not tell";
 
 /// What is left of channels and effects that cancel has the errors of all of them: the solver's and
-/// rounding's share of each channel's own stress, and rounding's of each effect's. Nothing where one channel
-/// of one effect stands alone.
+/// rounding's share of each channel's own stress, and rounding's of each effect's. Zero where one channel of
+/// one effect stands alone.
 double cancellation_error_Pa(const std::vector<std::array<double, 6>>& unit, const ChannelHistory& loads,
                              Eigen::Index instant, double value_Pa, double solver_share) {
   if (value_Pa == 0) return 0;  // nothing is stressed

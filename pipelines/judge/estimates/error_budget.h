@@ -16,7 +16,7 @@
 
 namespace pipelines {
 
-/// True errors were up to this many times the plain estimate on shafts of 2 to 16 cells per fillet quarter.
+/// Largest ratio of the true error to the plain estimate. Source: shafts of 2 to 16 cells per fillet quarter.
 inline constexpr double discretisation_safety = 3;
 
 /// One source of error of a von Mises stress.
@@ -24,17 +24,17 @@ struct ErrorEntry {
   std::string source;   ///< "time_sampling", "discretisation", ...
   std::string method;   ///< in a few words: how the figure was found
   double value_Pa = 0;  ///< estimate of the size, not negative
-  /// How many times the plain estimate the value is: what several meshes that agree may take back.
+  /// Factor on the plain estimate that the value has in it: several meshes that agree may take it back.
   double safety = discretisation_safety;
-  std::string condition{};  ///< "if bearings press on 80 to 180 degrees in all": on what the value rests
+  std::string condition{};  ///< on what the value rests: "if bearings press on 80 to 180 degrees in all"
 };
 
 /// Entries add up: signs are not known.
 struct ErrorBudget {
-  std::vector<ErrorEntry> numerical;  ///< of the calculation: finer runs make them smaller
-  std::vector<ErrorEntry> model;      ///< of assumptions that no mesh mends
+  std::vector<ErrorEntry> numerical;  ///< errors of the calculation: finer runs make them smaller
+  std::vector<ErrorEntry> model;      ///< errors of assumptions that no mesh mends
 
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
   ErrorBudget();
   ErrorBudget(const ErrorBudget&);
   ErrorBudget(ErrorBudget&&) noexcept;
@@ -63,7 +63,7 @@ struct ErrorBudget {
 /// Unit stress of a point by a submodel (submodels.h).
 struct ResolvedStress {
   std::vector<std::array<double, 6>> unit_Pa;  ///< per channel
-  double error_share = 0;  ///< of the von Mises stress: what the submodel itself is off by
+  double error_share = 0;  ///< error of the submodel itself, as a share of the von Mises stress
 };
 
 /// Where a headline stress comes from: the weighted sum of the stress at some nodes (one node for a peak, two

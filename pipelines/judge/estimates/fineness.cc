@@ -15,7 +15,7 @@ int whole(double wanted, int step, int least) {
   return std::max(least, step * int(std::lround(wanted / step)));
 }
 
-/// Of chambers too.
+/// Steepest growth of the cells, of chambers as of shafts.
 constexpr double steepest_growth = meshes::ShaftMeshControl::steepest_growth;
 
 /// The mesher's own choice where the scene has none (meshes::ChamberMeshControl::size_m).

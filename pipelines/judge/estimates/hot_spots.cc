@@ -12,9 +12,9 @@ namespace {
 
 using Eigen::ArrayXXd;
 
-/// Of the nearer point: 1.67 at 0.4 and 1.0 plate thicknesses, as the recommendations print it. Where a
-/// vertex of the mesh is a little off, that of the straight line through both. The farther point has the rest
-/// of 1.
+/// Weight of the nearer point: 1.67 at 0.4 and 1.0 plate thicknesses, as the recommendations print it. Where
+/// a vertex of the mesh is a little off, the weight of the straight line through both. The farther point has
+/// the rest of 1.
 double near_weight(const meshes::HotSpot& spot) {
   const auto from_toe_m = [&](const std::array<double, 3>& p) {
     return std::hypot(p[0] - spot.toe_m[0], p[1] - spot.toe_m[1], p[2] - spot.toe_m[2]);
@@ -25,10 +25,11 @@ double near_weight(const meshes::HotSpot& spot) {
   return std::abs(weight - printed) < rounding ? printed : weight;
 }
 
-/// Of the meshed surface from the drawn one, in plate thicknesses: chords under arcs.
+/// Largest distance of the meshed surface from the drawn one, in plate thicknesses: chords under arcs.
 constexpr double off_surface = 0.02;
 
-/// Of models without faces (plated_tube_responses) the points themselves are nodes.
+/// The node at p, for models without faces (plated_tube_responses), whose points are nodes; empty: there is
+/// none.
 fem::PointOnBoundary node_at(const fem::Nodes& nodes, const std::array<double, 3>& p) {
   for (std::size_t i = 0; i < nodes.n; ++i)
     if (std::equal(p.begin(), p.end(), &nodes.xyz_m[3 * i])) return {0, {{i, 1.0}}};
@@ -50,7 +51,7 @@ Eigen::Vector3d vector_of(const std::array<double, 3>& x_m) {
   return Eigen::Vector3d(x_m.data());
 }
 
-/// From the toe to the points of the hot spot.
+/// Direction from the toe to the points of the hot spot.
 Eigen::Vector3d across(const meshes::HotSpot& spot) {
   return (vector_of(spot.near_m) - vector_of(spot.toe_m)).normalized();
 }

@@ -23,12 +23,13 @@ struct HotSpotStress {
   /// Length across the toe, in plate thicknesses, of the face that has both this point and the toe; 0:
   /// another face's edge lies between.
   double face_walls = 0;
-  double von_mises_Pa = 0;                         ///< largest over the cycle
-  std::int32_t instant = 0;                        ///< of that
-  double error_Pa = 0;                             ///< numerical part, estimated on this mesh alone
-  std::shared_ptr<const ResolvedStress> resolved;  ///< of the extrapolation, where a submodel was solved
-  double max_normal_Pa = 0,
-         min_normal_Pa = 0;  ///< across the toe, over the cycle: their range is what fatigue counts
+  double von_mises_Pa = 0;   ///< largest over the cycle
+  std::int32_t instant = 0;  ///< instant of that stress
+  double error_Pa = 0;       ///< numerical part, estimated on this mesh alone
+  /// Unit stress of the extrapolation where a submodel was solved.
+  std::shared_ptr<const ResolvedStress> resolved;
+  /// Largest and least normal stress across the toe over the cycle: their range is what fatigue counts.
+  double max_normal_Pa = 0, min_normal_Pa = 0;
 };
 
 /// The extrapolation at the instant of the largest von Mises stress.
@@ -45,7 +46,7 @@ void take_course(const meshes::HotSpot& drawing, const std::vector<std::array<do
                  const ChannelHistory& loads, HotSpotStress& spot);
 
 /// The same toes under other loads, by the same unit stress: a submodel's where one was solved.
-/// @param drawings  of all of `spots`, which are of the same responses
+/// @param drawings  drawings of all of `spots`, which are of the same responses
 /// @param loads     with the channels of the unit responses
 /// @return in descending order of the largest von Mises stress
 std::vector<HotSpotStress> hot_spots_under(const std::vector<meshes::HotSpot>& drawings,

@@ -17,7 +17,7 @@ namespace pipelines {
 /// inside the body, or at a weld toe.
 struct PlaceStress {
   std::string feature;   ///< name of the feature, of the weld toe, or "inside"
-  std::size_t node = 0;  ///< of the maximum; of a weld toe its nearer reference point
+  std::size_t node = 0;  ///< node of the maximum; at a weld toe its nearer reference point
   double value_Pa = 0;
   double error_Pa = 0;  ///< numerical, for want of a finer mesh
   std::array<double, 3> position_m{};
@@ -26,9 +26,9 @@ struct PlaceStress {
 };
 
 inline constexpr const char* inside_the_body = "inside";
-/// Of the largest stress on the surface: a maximum inside well below it is that of the node next to the
-/// surface, and says where nodes lie. An extremum inside (a shaft that spins, the depth below a pressed seat)
-/// is one of the largest.
+/// Share of the largest stress on the surface below which a maximum inside is no place of its own: it is that
+/// of the node next to the surface, and says where nodes lie. An extremum inside (a shaft that spins, the
+/// depth below a pressed seat) is one of the largest.
 inline constexpr double share_of_inside = 0.9;
 
 /// The largest value of each feature outside the exclusion distances, errors zero. A node on the seam of two
@@ -44,8 +44,8 @@ std::vector<PlaceStress> largest_by_feature(const fem::Nodes& nodes, const std::
 struct PlaceJudgement {
   std::size_t governing = 0;     ///< index of the largest value
   std::size_t holding_back = 0;  ///< index of the place that keeps the error of the whole largest
-  double other_places_Pa =
-      0;                    ///< by how much another place, with its error, exceeds the governing one with its
+  /// Stress by which another place, with its error, exceeds the governing one with its.
+  double other_places_Pa = 0;
   std::string other_place;  ///< that place; empty if other_places_Pa is zero
 };
 

@@ -27,7 +27,7 @@ struct SolvedPressure {
   std::map<int, Harmonic> harmonics;
 };
 
-/// By port; of those alone that a force loads.
+/// Solved pressures by port; those of ports that a force loads alone.
 std::map<std::string, SolvedPressure> solved_pressures(const BodyLoads& loads);
 
 /// What share of the largest loads of a port others have, the largest of its channels: 1 for the loads
@@ -46,11 +46,11 @@ public:
   /// @param unit_Pa  stress of the unit loads at the point
   StressByHarmonic(const SolvedPressure& pressure, const std::vector<std::array<double, 6>>& unit_Pa);
   bool is_solved(int n) const { return solved_Pa_.count(n) > 0; }
-  /// Per unit of the coefficient of that harmonic, under the largest force [Pa].
+  /// Stress per unit of the coefficient of that harmonic, under the largest force [Pa].
   double at(int n) const;
   /// The largest harmonic that was solved; 1: none above the force.
   int last() const { return solved_Pa_.empty() ? 1 : solved_Pa_.rbegin()->first; }
-  /// Above the last one: A and B.
+  /// A and B, the stresses above the last harmonic that was solved.
   double falling_Pa() const { return falling_Pa_; }
   double level_Pa() const { return level_Pa_; }
 

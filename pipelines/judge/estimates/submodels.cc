@@ -41,7 +41,7 @@ double submodel_error_Pa(const StressPoint& point, const fem::UnitResponses& res
 
 namespace {
 
-/// By name.
+/// The item of that name; null: there is none.
 template <typename Spot>
 const Spot* find(const std::vector<Spot>& spots, const std::string& name) {
   const auto found = std::find_if(spots.begin(), spots.end(), [&](const Spot& s) { return s.name == name; });
@@ -71,7 +71,7 @@ void resolve(const meshes::HotSpot& drawn, const fem::UnitResponses& responses, 
 void resolve_hot_spots(const std::vector<meshes::HotSpot>& of_mesh, const fem::UnitResponses& responses,
                        const fem::Body& body, const BodyLoads& loads, std::vector<HotSpotStress>& spots,
                        const std::vector<HotSpotStress>& known) {
-  double largest_Pa = 0;      // of those that are resolved
+  double largest_Pa = 0;      // largest stress of the toes that are resolved
   for (auto& spot : spots) {  // in descending order: the first that cannot lead ends it
     if (spot.von_mises_Pa * (1 + largest_error_of_toes) < largest_Pa) break;
     if (fem::is_on_load(responses, body, loads.unit_loads, nodes_of(stress_point(spot)))) continue;

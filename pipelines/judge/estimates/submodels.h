@@ -13,23 +13,21 @@ namespace pipelines {
 inline constexpr const char* submodel_method =
     "change of the stress in submodels around, cells cut into 8 and 64";
 
-/// Of a node: two layers of cells cut once and twice, and three layers cut once. What the largest stress
-/// within the first layer changes by is what the mesh of the whole body is wrong by there, up to what the
-/// finest cells still change (second term) and what the rim holds wrong (third one; S: layers, cuts):
+/// Error of the stress at a node by submodels: two layers of cells cut once and twice, and three layers cut
+/// once. What the largest stress within the first layer changes by is what the mesh of the whole body is
+/// wrong by there, up to what the finest cells still change (second term) and what the rim holds wrong (third
+/// one; S: layers, cuts):
 ///   error = 3/2 |S22 - s| + |S22 - S21| + |S31 - S21|
-/// 3/2: cells a quarter as large find two thirds of what is missing at order 0.8 and more. On five shafts of
-/// tetrahedra, 8 to 20 cells around a circle, S22 was 0 to 5 % off, from 10 cells on 0 to 1 %
-/// (tests/README.md).
+/// 3/2: cells a quarter as large find two thirds of what is missing at order 0.8 and more.
 /// @param left_out  places kept out of the peak; null: none
 double submodel_error_Pa(const StressPoint& point, const fem::UnitResponses& responses, const fem::Body& body,
                          const BodyLoads& loads, const fem::LeftOut& left_out);
 
-/// Toes that are not resolved may be off by this much: less than their own cells tell, which end at the toe.
-/// On meshes of a search submodels moved the stress of toes by 3 to 22 %.
+/// Error that toes may have that are not resolved: less than their own cells tell, which end at the toe.
+/// Source: submodels move the stress of toes by 3 to 22 % on meshes of a search.
 inline constexpr double largest_error_of_toes = 0.5;
-/// That holds where faces at the toe are no longer, in plate thicknesses. Of the default chamber's toes whose
-/// faces had 1.6 some showed an eighth of their stress, with 0.8 two fifths; none was off by more than single
-/// cells say.
+/// Longest face at the toe for which that holds, in plate thicknesses. Source: toes of the default chamber,
+/// which show down to two fifths of their stress with faces of 0.8, an eighth with 1.6.
 inline constexpr double longest_face_walls = 0.5;
 
 /// Solves the largest toes once more in submodels: all that may hold the largest stress as long as no toe is
@@ -39,7 +37,7 @@ inline constexpr double longest_face_walls = 0.5;
 ///   error = 3/2 |S22 - S21| + 2 |S31 - S21|
 /// 3/2: halved cells find two fifths of what is missing at order 0.74 and more.
 /// @param spots  in descending order, before and after
-/// @param known  of the same responses under other loads: toes resolved there are not solved again
+/// @param known  hot spots of the same responses under other loads: toes resolved there are not solved again
 /// @throws fem::SolveFailed as submodel_stress
 void resolve_hot_spots(const std::vector<meshes::HotSpot>& of_mesh, const fem::UnitResponses& responses,
                        const fem::Body& body, const BodyLoads& loads, std::vector<HotSpotStress>& spots,

@@ -18,11 +18,11 @@ using Eigen::Index;
 /// Polynomials through eight instants at twice the distance span as many.
 constexpr Index least_for_pieces = 16;
 
-/// Of the sum of the channels' own stresses: lines of the spectrum up to this are none. Kinetics' angles over
-/// a thousand turns are off by 1e-12.
+/// Share of the sum of the channels' own stresses up to which the spectrum has no lines. Kinetics' angles
+/// over a thousand turns are off by 1e-12.
 constexpr double no_line = 1e-12;
 
-/// Of the largest value: rounding of the polynomial's.
+/// Share of the largest value up to which an excess is the polynomial's rounding.
 constexpr double no_excess = 64 * std::numeric_limits<double>::epsilon();
 
 /// @param values  coordinates x instants, of size 1

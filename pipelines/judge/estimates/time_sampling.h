@@ -10,11 +10,11 @@
 
 namespace pipelines {
 
-/// By how much von Mises over the cycle exceeds the largest of its values at the instants.
+/// Excess of von Mises stress over the cycle above the largest of its values at the instants.
 struct TimeSampling {
-  double excess_Pa = 0;      ///< of the stress interpolated; exact where the instants resolve the factors
-  double unresolved_Pa = 0;  ///< what it may be beyond that; 0 where they are resolved
-  double instant = 0;        ///< of the crest: i + share of the step to the next instant
+  double excess_Pa = 0;  ///< excess of the stress interpolated; exact where the instants resolve the factors
+  double unresolved_Pa = 0;  ///< further excess that it may have; 0 where the instants resolve the factors
+  double instant = 0;        ///< instant of the crest: i + share of the step to the next instant
   double error_Pa() const { return excess_Pa + unresolved_Pa; }
 };
 
@@ -23,9 +23,9 @@ enum class SeriesKind { period, transient };
 /// A stress whose spectrum is empty from a third of the number of instants on is resolved: its factors are
 /// trigonometric polynomials, and the crest is found exactly. Others have the smaller of two bounds, of their
 /// trigonometric polynomial and of polynomials through eight instants, each with what the instants leave
-/// unresolved (superposition/cycle_extremes.h); below 16 instants, of the first. Harmonics that fall on lower
-/// ones because the instants meet them always at the same places cannot be seen. Of one and two instants
-/// nothing is known: 0.
+/// unresolved (superpose/between_instants/cycle_extremes.h); below 16 instants, of the first. Harmonics that
+/// fall on lower ones because the instants meet them always at the same places cannot be seen. Of one and two
+/// instants nothing is known: 0.
 /// @param unit    per channel (xx, yy, zz, xy, yz, xz) [Pa]
 /// @param values  channels x instants
 /// @param kind    a transient has no polynomial of a period, and none is sought: its thousands of instants
@@ -34,8 +34,8 @@ enum class SeriesKind { period, transient };
 TimeSampling time_sampling(const std::vector<std::array<double, 6>>& unit, const Eigen::ArrayXXd& values,
                            SeriesKind kind = SeriesKind::period);
 
-/// By how much the largest stress under loads that the instants pass over (ChannelHistory::passed_over)
-/// exceeds the largest at these; 0: not at all.
+/// Excess of the largest stress under loads that the instants pass over (ChannelHistory::passed_over) above
+/// the largest at these; 0: there is none.
 double passed_over_excess_Pa(const std::vector<std::array<double, 6>>& unit, const ChannelHistory& loads);
 
 /// Whether the instants pass over loads above the largest or below the smallest at these, by more than 1 % of

@@ -29,9 +29,9 @@ struct ElasticLine {
   std::vector<double> z_m;
   std::vector<Array2Xd> displacement_m, slope_rad;
 
-  /// Between planes the displacement is cubic (Hermite) and the slope linear: not the cubic's derivative,
-  /// since shear inclines the axis against its sections, and more than bending where a seat is short. Beyond
-  /// the last plane the shaft is straight.
+  /// Deflection and slope at z. Between planes the displacement is cubic (Hermite) and the slope linear: not
+  /// the cubic's derivative, since shear inclines the axis against its sections, and more than bending where
+  /// a seat is short. Beyond the last plane the shaft is straight.
   std::pair<Array2Xd, Array2Xd> at(double z) const {
     if (z <= z_m.front() || z >= z_m.back()) {
       const std::size_t end = z <= z_m.front() ? 0 : z_m.size() - 1;

@@ -27,10 +27,10 @@ struct SectionResult {
   SectionHistory by_stress;   ///< integral of the recovered stress
   SectionHistory by_statics;  ///< from channels and the density of the body alone
   Eigen::ArrayXd torsion_Pa;  ///< mean over the rim of sigma_theta_z; n_instants
-  Eigen::ArrayXd
-      beam_torsion_Pa;  ///< T r / I_p with the statics' torque about the section's own axis; n_instants
-  Eigen::Array2Xd
-      deflection_m;  ///< x, y of the section's axis point against the line through the references' axes
+  /// T r / I_p with the statics' torque about the section's own axis; n_instants.
+  Eigen::ArrayXd beam_torsion_Pa;
+  /// x, y of the section's axis point against the line through the references' axes.
+  Eigen::Array2Xd deflection_m;
   Eigen::Array2Xd slope_rad;  ///< d(deflection x)/dz, d(deflection y)/dz from the section's rotation
 };
 
@@ -38,11 +38,12 @@ struct SectionResult {
 struct TorsionRing {
   double z_m = 0, radius_m = 0;
   std::string feature;
-  double max_Pa = 0;  ///< over the cycle, hypot of the mean sigma_r_theta and sigma_theta_z; over the whole
-                      ///< course where the loads that the instants pass over are that
-  Eigen::Index instant = 0;  ///< of the largest at the instants
-  Eigen::Index denser_instant =
-      -1;  ///< of max_Pa: column of ChannelHistory::passed_over; -1: it is `instant`
+  /// Largest over the cycle, hypot of the mean sigma_r_theta and sigma_theta_z; over the whole course where
+  /// the loads that the instants pass over are that.
+  double max_Pa = 0;
+  Eigen::Index instant = 0;  ///< instant of the largest at the instants
+  /// Instant of max_Pa: column of ChannelHistory::passed_over; -1: it is `instant`.
+  Eigen::Index denser_instant = -1;
   /// What it may be more up to the border of what is left out, where that is next to it: from the ring within
   /// in a straight line, which is above a curve that steepens towards the corner.
   double rise_Pa = 0;
@@ -95,16 +96,16 @@ Eigen::Array2Xd ring_shear_Pa(const ChannelHistory& loads, const fem::UnitRespon
 Eigen::Array2Xd ring_shear_Pa(const Eigen::ArrayXXd& values, const fem::UnitResponses& responses,
                               std::size_t ring);
 
-/// Of all rings of the responses, in their order, which section_diagrams has as well. Those that are left out
-/// beside sharp edges, where stress has no converged value, have none: 0.
+/// Torsion on all rings of the responses, in their order, which section_diagrams has as well. Rings that are
+/// left out beside sharp edges, where stress has no converged value, have 0.
 std::vector<TorsionRing> torsion_rings(const BodyLoads& loads, const fem::UnitResponses& responses,
                                        const meshes::BodyMesh& mesh);
 
 /// The ring with the largest torsional stress; null if there is none.
 const TorsionRing* largest_torsion_ring(const Diagrams& diagrams);
 
-/// max over plain sections and instants of |torsion_Pa - beam_torsion_Pa| against the largest beam_torsion_Pa
-/// of those; 0 if no plain section carries torque.
+/// Largest |torsion_Pa - beam_torsion_Pa| over plain sections and instants against the largest
+/// beam_torsion_Pa of plain sections; 0 if no plain section carries torque.
 double plain_torsion_mismatch(const Diagrams& diagrams);
 
 }  // namespace pipelines

@@ -23,7 +23,7 @@ public:
 private:
   std::vector<Channel> channels_;
   std::vector<fem::UnitLoad> unit_loads_;
-  std::map<std::string, std::string> texts_;  ///< of the unit loads, by channel
+  std::map<std::string, std::string> texts_;  ///< texts of the unit loads by channel
 };
 
 }  // namespace pipelines

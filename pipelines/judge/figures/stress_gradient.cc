@@ -15,7 +15,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// In its cells: a node that was moved along the surface would make slivers of those around it.
+/// Position of a node in its cells: one that was moved along the surface would make slivers of those around
+/// it.
 Vector3d position_of_node(const fem::Nodes& nodes, std::size_t node) {
   if (!nodes.moved_from_m.empty())
     if (const auto moved = nodes.moved_from_m.find(node); moved != nodes.moved_from_m.end())
@@ -107,7 +108,7 @@ SurfaceSlopes::SurfaceSlopes(const fem::Nodes& nodes)
       on_surface[std::size_t(node)] = 1;
       faces_of_[std::size_t(node)].push_back(std::int32_t(f));
     }
-  // Of straight cells those of the second row, too.
+  // Straight cells need the nodes of the second row, too.
   if (nodes.degree == 1) {
     const auto first_row = on_surface;
     for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
@@ -191,7 +192,7 @@ std::size_t SurfaceSlopes::stand_in(std::size_t node) const {
     return {std::hypot(p[0], p[1]), p[2]};
   };
   const auto own = circle(node);
-  constexpr double rounding = 1e-9;  // of the radius
+  constexpr double rounding = 1e-9;  // share of the radius
   for (const auto face : faces_of_[node])
     for (const auto other : nodes_->face(std::size_t(face))) {
       const auto of = circle(std::size_t(other));

@@ -33,7 +33,8 @@ public:
   /// circle: the field is not known below it.
   std::vector<std::pair<std::size_t, double>> inward_weights(std::size_t node) const;
 
-  /// Of the faces around a node of the surface, outwards, of length one; zero where there are none.
+  /// Mean direction of the faces around a node of the surface, outwards, of length one; zero where there are
+  /// none.
   std::array<double, 3> outward_normal(std::size_t node) const;
 
 private:

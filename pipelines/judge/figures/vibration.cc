@@ -18,8 +18,9 @@
 namespace pipelines {
 namespace {
 
-constexpr double significant = 0.01;  // of the static peak
-constexpr double round_off = 1e-9;    // likewise; its sum over a few thousand lines stays far below the limit
+constexpr double significant = 0.01;  // share of the static peak from which a harmonic counts
+// Share of the static peak that is rounding; its sum over a few thousand lines stays far below the limit.
+constexpr double round_off = 1e-9;
 
 /// Far stiffer than any body of this material around the seat, whose own stiffness is of size E d.
 constexpr double rigid = 1e6;
@@ -62,8 +63,8 @@ double amplification_at(double frequency_Hz, double natural_Hz) {
   return std::min(1 / rest, resonance_peak);
 }
 
-/// Of all that the natural frequency may be, the one that changes most: where it may meet the load that is
-/// resonance, elsewhere one of its bounds, since |amplification - 1| has no other maximum.
+/// Amplification at the one of all possible natural frequencies that changes most: where it may meet the load
+/// that is resonance, elsewhere one of its bounds, since |amplification - 1| has no other maximum.
 double amplification_at(double frequency_Hz, const NaturalFrequency& natural) {
   const double least_Hz = natural.least_Hz();
   if (least_Hz <= frequency_Hz && frequency_Hz <= natural.value_Hz && frequency_Hz > 0) return resonance_peak;
@@ -72,9 +73,9 @@ double amplification_at(double frequency_Hz, const NaturalFrequency& natural) {
   return std::abs(low - 1) > std::abs(high - 1) ? low : high;
 }
 
-/// By the natural frequency, and the frequency in axes at rest, that change most: which of the shapes a
-/// harmonic brings, and which way it turns, is not looked at.
-/// @param f_Hz  in the body's axes
+/// The harmonic as amplified by the natural frequency, and at the frequency in axes at rest, that change
+/// most: which of the shapes a harmonic brings, and which way it turns, is not looked at.
+/// @param f_Hz  frequency in the body's axes
 StressHarmonic amplified(double f_Hz, double share, const std::vector<double>& spins_Hz,
                          const std::vector<NaturalFrequency>& natural) {
   StressHarmonic line;
@@ -102,7 +103,7 @@ Stress stress_of(const Eigen::Matrix<double, 6, 1>& column) {
   return s;
 }
 
-/// Of the first place and the others.
+/// What resonance adds to the first place and to the others.
 Vibration::Added added(const std::vector<ShakenPlace>& places,
                        const std::vector<DynamicAmplification>& dynamic) {
   Vibration::Added result;

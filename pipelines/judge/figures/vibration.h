@@ -26,9 +26,9 @@ inline constexpr double resonance_peak = 50;
 /// One harmonic of the stress at a place.
 struct StressHarmonic {
   double order = 0;  ///< relative to the drive's turn, in the body's axes
-  double frequency_Hz =
-      0;             ///< at which the body is shaken: of those at which it may, the one that changes most
-  double share = 0;  ///< of the static peak
+  /// Frequency at which the body is shaken: of those at which it may be, the one that changes most.
+  double frequency_Hz = 0;
+  double share = 0;  ///< amplitude as a share of the static peak
   /// 1 / |1 - (f / f_n)^2|, at most resonance_peak; of the f_n that changes most, and of all that it may be
   double amplification = 1;
 };
@@ -51,13 +51,14 @@ struct NaturalFrequency {
 struct Vibration {
   std::vector<NaturalFrequency> natural_frequencies;  ///< ascending, without free rigid motions
   std::string held;                                   ///< "pinned at bearing_1, bearing_2" ...
-  DynamicAmplification amplification;                 ///< of the peak von Mises stress
-  DynamicAmplification at_hot_spot;  ///< of the largest hot-spot stress; factor 1 without weld toes
+  DynamicAmplification amplification;                 ///< amplification of the peak von Mises stress
+  /// Amplification of the largest hot-spot stress; factor 1 without weld toes.
+  DynamicAmplification at_hot_spot;
   /// What the body's largest stress with resonance has beyond the largest without: at the same place, or at
   /// another one that a load near resonance stresses more.
   struct Added {
-    double share = 0;   ///< of the largest without
-    std::string place;  ///< which other one; empty: the same
+    double share = 0;   ///< addition as a share of the largest without resonance
+    std::string place;  ///< the other place; empty: the same
   };
   Added to_peak, to_hot_spot;
 };
@@ -65,7 +66,8 @@ struct Vibration {
 /// Relative error of a natural frequency above which a run warns.
 inline constexpr double frequency_error_limit = 0.05;
 
-/// Above it a run warns; where a harmonic of weight is above all frequencies that were computed, too.
+/// Amplification above which a run warns; it warns, too, where a harmonic of weight is above all frequencies
+/// that were computed.
 inline constexpr double amplification_limit = 1.02;
 
 /// What resonance adds to stresses computed quasi-statically.
@@ -74,9 +76,10 @@ inline constexpr double amplification_limit = 1.02;
 /// @param stress_Pa  6 x n: xx, yy, zz, xy, yz, xz at one place over whole turns of the drive
 /// @param turns      that they cover
 /// @param turn_Hz    turns of the drive per second
-/// @param spin_Hz    of the body's axes against what holds it, the stress being of loads across the axis: one
-///                   that stands still in them shakes the body once per turn, one that oscillates at f at
-///                   f + spin and |f - spin|. A harmonic counts at that of the two that changes it most
+/// @param spin_Hz    turns per second of the body's axes against what holds it, the stress being of loads
+///                   across the axis: one that stands still in them shakes the body once per turn, one that
+///                   oscillates at f at f + spin and |f - spin|. A harmonic counts at that of the two that
+///                   changes it most
 /// @param natural  natural frequencies; every harmonic counts as if it were in the shape of the one that
 ///                 changes it most, and that one where within its error it changes it most, so that beside a
 ///                 resonance the sum is a bound
@@ -85,7 +88,8 @@ inline constexpr double amplification_limit = 1.02;
 DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int turns, double turn_Hz,
                                            double spin_Hz, const std::vector<NaturalFrequency>& natural);
 
-using UnitStress = Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< of each channel, 6 x channels [Pa]
+/// Unit stress of each channel, 6 x channels [Pa].
+using UnitStress = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// The lines of the loads that stress is a sum of, once for all places.
 class LoadLines {
@@ -99,7 +103,7 @@ public:
   LoadLines(const Eigen::ArrayXXd& factors, const std::vector<bool>& across, int turns, double turn_Hz,
             std::vector<double> spins_Hz);
 
-  /// As the function above, of a place's unit stresses.
+  /// dynamic_amplification of a place, from its unit stresses.
   /// @param peak_Pa  largest von Mises stress there over the cycle
   DynamicAmplification amplification(const UnitStress& unit_Pa, double peak_Pa,
                                      const std::vector<NaturalFrequency>& natural) const;
@@ -122,7 +126,7 @@ struct ShakenPlace {
   UnitStress unit_Pa;
 };
 
-/// @param channels  of the body's loads
+/// @param channels  channels of the body's loads
 /// @param places  the peak's first, then the others that may lead when a load meets a natural frequency: it
 /// may
 ///                have little weight where the peak is

@@ -5,7 +5,7 @@
 namespace pipelines {
 namespace {
 
-/// Of the peak.
+/// Share of the peak below which an amplitude is rounding.
 constexpr double least_amplitude = 1e-9;
 
 /// @param course  the loads, or at denser instants

@@ -13,14 +13,14 @@
 namespace pipelines {
 
 struct ZoneCauses {
-  StressShares peak;        ///< in the stress at the zone's peak, at its instant
-  StressCycle cycle{};      ///< the largest there
+  StressShares peak;        ///< shares in the stress at the zone's peak, at its instant
+  StressCycle cycle{};      ///< largest cycle there
   double from = 0, to = 0;  ///< its instants: i + share of the step to the next
-  StressShares amplitude;   ///< in the change over it; empty where the stress does not vary
+  StressShares amplitude;   ///< shares in the change over it; empty where the stress does not vary
 };
 
-/// Of all zones, in their order. Amplitudes below 1e-9 of the peak are rounding: what stands
-/// still in the body's frame leaves some, and its shares would be noise.
+/// Causes of all zones, in their order. Amplitudes below 1e-9 of the peak are rounding: what stands still in
+/// the body's frame leaves some, and its shares would be noise.
 std::vector<ZoneCauses> causes_of(const Zones& zones, const fem::UnitResponses& responses,
                                   const ChannelHistory& loads);
 

@@ -27,7 +27,7 @@ using Eigen::ArrayXXd;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// None: nothing damages.
+/// Life by a damage in that time; none: nothing damages.
 std::optional<double> life_of(double damage, double duration_s) {
   return damage > 0 ? std::optional(duration_s / damage) : std::nullopt;
 }
@@ -80,7 +80,7 @@ double findley_safety(const FatigueRules& rules, const StressCourse& course, con
   return plane.utilisation > 0 ? 1 / plane.utilisation : never;
 }
 
-/// Of a feature's nodes, without support by the gradient: where each of Shigley's lines is used up most, by
+/// The nodes of a feature, without support by the gradient, where each of Shigley's lines is used up most, by
 /// the cycles at the instants. FKM does not see every mean (fields I and IV), so that its worst node says
 /// little about them.
 std::vector<std::size_t> worst_by_lines(const FatigueRules& rules, const NodalCycles& known,
@@ -102,7 +102,7 @@ std::vector<std::size_t> worst_by_lines(const FatigueRules& rules, const NodalCy
   return result;
 }
 
-/// Each rule's least of FKM's worst node and those of its own.
+/// Least of each rule over FKM's worst node and the rule's own nodes.
 SecondOpinions second_opinions(const FatigueRules& rules, const FatigueNode& worst,
                                std::vector<std::size_t> by_lines, const FatiguePlaces& search) {
   SecondOpinions least{never, never, never, never};
@@ -121,7 +121,7 @@ SecondOpinions second_opinions(const FatigueRules& rules, const FatigueNode& wor
   return least;
 }
 
-/// Of the nodes that may be the worst of a feature.
+/// One of the nodes that may be the worst of a feature.
 struct JudgedNode {
   FatigueNode node;
   CountedNode counted;
@@ -144,8 +144,8 @@ JudgedNode worst_of(const std::vector<FatigueNode>& candidates, const FatiguePla
 /// the course.
 struct JudgedLoads {
   const ChannelHistory& history;
-  const NodalMaximum& von_mises;  ///< over these
-  double per_instant;             ///< of the analysis
+  const NodalMaximum& von_mises;  ///< envelope over these
+  double per_instant;             ///< instants of these loads per instant of the analysis
 };
 
 FatiguePlace place_of(const std::string& feature, const JudgedNode& worst,
@@ -294,9 +294,9 @@ double effective_diameter(const Responded& analysis) {
   return surface_m2 > 0 ? 4 * analysis.masses.volume_m3 / surface_m2 : 0;
 }
 
-/// Every kind of material of the group, at the place that is used most. The direction of counting is that
-/// of the strength as given.
-void take_sizes(const Responded& analysis, const FatiguePlaces& search, const FatigueRules& rules,
+/// Judges the place that is used most with the size of every kind of material of the group. Cycles are
+/// counted along the direction of the strength as given.
+void take_sizes(const Judged& analysis, const FatiguePlaces& search, const FatigueRules& rules,
                 const LoadPeriod& period, BodyFatigue& fatigue) {
   fatigue.effective_diameter_m = effective_diameter(analysis);
   if (!(fatigue.effective_diameter_m > 0) || fatigue.places.empty() || rules.scene().endurance_Pa) return;
@@ -330,11 +330,12 @@ void warn_beyond(const std::string& body, const std::vector<Place>& places, cons
   warnings.push_back(warning_beyond_curve(body, n, name(*first), first->certainty.beyond));
 }
 
-/// Of the stress: what is stated of its amplitude beside, without a range, is wrong by as much.
+/// Share of the stress that the instants may miss before a run warns: what is stated of its amplitude beside,
+/// without a range, is wrong by as much.
 constexpr double much_between_instants = 0.2;
 
-/// Of the place of a list that may be used most, if the instants miss much of its stress.
-/// @param size  of a place's amplitude, in any measure
+/// Warns of the place of a list that may be used most, if the instants miss much of its stress.
+/// @param size  the amplitude of a place, in any measure
 template <typename Place, typename Size, typename Name>
 void warn_of_few_instants(const std::string& body, const std::vector<Place>& places, const Size& size,
                           const Name& name, std::vector<std::string>& warnings) {

@@ -22,7 +22,7 @@ namespace pipelines {
 /// What a scene's loads repeat.
 struct LoadPeriod {
   double duration_s = 0;
-  double turns = 0;  ///< of the drive
+  double turns = 0;  ///< turns of the drive
 };
 
 /// The other rules beside FKM's: safety against endurance without j_D and reliability. Each is the least of
@@ -38,47 +38,50 @@ struct FatiguePlace {
   Place surface = Place::free_surface;
   std::size_t node = 0;
   std::array<double, 3> position_m{};
-  StressCycle cycle{};           ///< no pair of instants differs more, nor of what lies between them
-  double from = 0, to = 0;       ///< its instants: i + share of the step to the next
-  double gradient_per_m = 0;     ///< related stress gradient of the amplitude
-  double support = 1;            ///< n_sigma that it brings
-  double endurance_Pa = 0;       ///< sigma_AK: amplitude endured at this mean, reliability in it, j_D not
-  double safety = 0;             ///< sigma_AK / amplitude; infinite where nothing changes
-  double utilisation = 0;        ///< j_D / safety: 1 is what is allowed
-  double damage_per_turn = 0;    ///< of the drive, at the design limit sigma_AK / j_D; 0: endures
-  std::optional<double> life_s;  ///< none: endures
-  std::optional<double> life_safety;  ///< against the wanted life: factor on all stresses over j_D
+  StressCycle cycle{};        ///< no pair of instants differs more, nor of what lies between them
+  double from = 0, to = 0;    ///< its instants: i + share of the step to the next
+  double gradient_per_m = 0;  ///< related stress gradient of the amplitude
+  double support = 1;         ///< n_sigma that it brings
+  double endurance_Pa = 0;    ///< sigma_AK: amplitude endured at this mean, reliability in it, j_D not
+  double safety = 0;          ///< sigma_AK / amplitude; infinite where nothing changes
+  double utilisation = 0;     ///< j_D / safety: 1 is what is allowed
+  /// Damage in a turn of the drive, at the design limit sigma_AK / j_D; 0: endures.
+  double damage_per_turn = 0;
+  std::optional<double> life_s;       ///< none: endures
+  std::optional<double> life_safety;  ///< safety against the wanted life: factor on all stresses over j_D
   std::size_t n_counted = 0;          ///< rainflow cycles in a period, along the direction of most damage
   SecondOpinions others;
-  std::vector<double> effect_share;  ///< of the amplitude, in the order of ChannelHistory::effects; sums to 1
-  std::vector<double> damage_share;  ///< likewise of the damage (damage_shares.h); empty: nothing changes
-  double unresolved_share = 0;       ///< what the instants leave unresolved of the amplitude
-  double error_share = 0;            ///< whole error of the amplitude (whole_error_share_of_change);
-                                     ///< infinite: not known
-  LifeCertainty certainty;           ///< of the life
+  /// Shares of the amplitude, in the order of ChannelHistory::effects; they sum to 1.
+  std::vector<double> effect_share;
+  /// Shares of the damage (damage_shares.h), in the same order; empty: nothing changes.
+  std::vector<double> damage_share;
+  double unresolved_share = 0;  ///< what the instants leave unresolved of the amplitude
+  /// Whole error of the amplitude (whole_error_share_of_change); infinite: not known.
+  double error_share = 0;
+  LifeCertainty certainty;  ///< certainty of the life
 };
 
 /// A weld toe by its structural hot-spot stress over the cycle.
 struct WeldFatigue {
   std::string name;
   std::array<double, 3> toe_m{};
-  std::string type;  ///< of weld_classes.h; empty: the class is the scene's own
+  std::string type;  ///< type of weld_classes.h; empty: the class is the scene's own
   double class_Pa = 0, thickness_m = 0;
   double thickness_exponent = 0, thickness_factor = 1;  ///< n and f(t) on the class (weld_fatigue.h)
   double range_Pa = 0;                                  ///< largest of the counted cycles
-  double angle_rad = 0;       ///< of the governing direction from the toe's normal, at most 60 degrees
+  double angle_rad = 0;       ///< angle of the governing direction from the toe's normal, at most 60 degrees
   bool is_principal = false;  ///< a principal direction of the range; else the toe's normal
-  /// Of the range, in the order of ChannelHistory::effects; sums to 1, but for effects without a share of
-  /// their own. Empty: nothing changes.
+  /// Shares of the range, in the order of ChannelHistory::effects; they sum to 1, but for effects without a
+  /// share of their own. Empty: nothing changes.
   std::vector<double> effect_share;
-  std::vector<double> damage_share;  ///< likewise of the damage (damage_shares.h)
+  std::vector<double> damage_share;  ///< shares of the damage (damage_shares.h), in the same order
   std::size_t n_counted = 0;         ///< rainflow cycles in a period
   double damage_per_turn = 0;
   std::optional<double> life_s;       ///< none: endures
-  std::optional<double> life_safety;  ///< against the wanted life: factor on all stresses
+  std::optional<double> life_safety;  ///< safety against the wanted life: factor on all stresses
   double unresolved_share = 0;        ///< what the instants leave unresolved of the range
   double error_share = 0;             ///< whole error of the stress, with that; infinite: not known
-  LifeCertainty certainty;            ///< of the life
+  LifeCertainty certainty;            ///< certainty of the life
 };
 
 /// The damage at a zone's peak.
@@ -87,8 +90,8 @@ struct ZoneDamage {
   double damage_per_turn = 0;
   std::optional<double> life_s;  ///< none: endures
   double error_share = 0;        ///< whole error of the amplitude; infinite: not known
-  LifeCertainty certainty;       ///< of the life
-  StressShares shares;           ///< of the damage (damage_shares.h); empty: nothing changes
+  LifeCertainty certainty;       ///< certainty of the life
+  StressShares shares;           ///< shares of the damage (damage_shares.h); empty: nothing changes
 };
 
 /// The place that is used most, if the strength of the scene is that of the standard's reference size.
@@ -99,8 +102,8 @@ struct LifeAtSize {
 };
 
 struct BodyFatigue {
-  NodalCycles cycles;                   ///< of all nodes of the surface
-  std::vector<double> utilisation_at;   ///< of these nodes, without support by the gradient
+  NodalCycles cycles;                   ///< cycles of all nodes of the surface
+  std::vector<double> utilisation_at;   ///< utilisation at these nodes, without support by the gradient
   std::vector<FatiguePlace> places;     ///< by falling utilisation
   std::vector<NominalFatigue> nominal;  ///< fillets of steel shafts by DIN 743, least safety first
   std::vector<WeldFatigue> welds;       ///< by rising life, then by falling range
@@ -111,7 +114,7 @@ struct BodyFatigue {
 };
 
 /// @param analysis  with envelope, places and loads; its scene asks for fatigue
-/// @param period    of the loads
+/// @param period    period of the loads
 BodyFatigue judge_fatigue(const Judged& analysis, const LoadPeriod& period, int n_threads);
 
 }  // namespace pipelines

@@ -11,12 +11,12 @@ namespace {
 using Eigen::Index;
 using Coordinates = Eigen::Matrix<double, 5, Eigen::Dynamic>;
 
-/// Of the largest range: with a slope of 5, cycles below it do 3e-7 of its damage.
+/// Share of the largest range below which cycles do not decide: with a slope of 5 they do 3e-7 of its damage.
 constexpr double small_range = 0.05;
 constexpr double first_turn_rad = 0.3, last_turn_rad = 0.005;
 constexpr std::size_t n_ascents = 3;
 
-/// From one end to the farthest point and on, as long as that grows: almost the widest pair.
+/// Direction from one end to the farthest point and on, as long as that grows: almost the widest pair.
 DeviatoricDirection widest(const Coordinates& x) {
   const auto farthest = [&](Index from) {
     Index other = 0;
@@ -32,7 +32,7 @@ DeviatoricDirection widest(const Coordinates& x) {
   return x.col(b) - x.col(a);
 }
 
-/// Orthonormal, by falling range.
+/// Orthonormal directions by falling range.
 std::vector<DeviatoricDirection> basis_of(Coordinates x, const DeviatoricDirection& largest) {
   std::vector<DeviatoricDirection> basis{largest};
   const Eigen::RowVectorXd along = largest.transpose() * x;
@@ -103,7 +103,7 @@ DeviatoricDirection stationary_direction(const DeviatoricDirection& near, const 
   using Turn = Eigen::Vector4d;
   DeviatoricDirection direction = near;
   double here = std::log(damage(direction));
-  Eigen::LLT<Eigen::Matrix4d> crest;  // of the second derivatives, but for the sign
+  Eigen::LLT<Eigen::Matrix4d> crest;  // the second derivatives, but for the sign
   for (int i = 0; i < most_turns; ++i) {
     // Turns are small: the second derivatives of the first one do for all.
     const Eigen::Matrix<double, 5, 5> basis =

@@ -22,7 +22,7 @@ using DamageAlong = std::function<double(const DeviatoricDirection&)>;
 /// worst of these and of the middles of any two, what small turns towards each of the others make worse, down
 /// to 1/200 rad. Without a direction where nothing changes.
 /// @param coordinates  5 x places (StressCourse::coordinates)
-/// @param largest      of the largest cycle
+/// @param largest      direction of the largest cycle
 std::vector<DeviatoricDirection> damage_directions(
     const Eigen::Matrix<double, 5, Eigen::Dynamic>& coordinates, const DeviatoricDirection& largest,
     const DamageAlong& damage);

@@ -30,7 +30,7 @@ namespace pipelines {
 /// d ln(A) of one cycle by the stresses at its ends [1/Pa], and by the moving of its ends.
 struct AmplitudeSlopes {
   Eigen::Matrix<double, 6, 1> by_from, by_to;
-  /// Of the part by the mean: what the moving of the ends changes.
+  /// Slope by the mean stress: what the moving of the ends changes.
   Eigen::Matrix<double, 6, 1> by_mean = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
@@ -47,7 +47,7 @@ double damage_slope(const SnCurve& curve, const StressBlock& block);
 /// cycles: weights of these over time are gathered, and parts are looked at once.
 class DamageDerivative {
 public:
-  /// @param course  of the loads; null: ends of cycles are at instants
+  /// @param course  course of the loads; null: ends of cycles are at instants
   /// All outlive this.
   DamageDerivative(const UnitStresses& unit_Pa, const ChannelHistory& loads, const FactorCourse* course);
 
@@ -76,20 +76,21 @@ private:
   const ChannelHistory& loads_;
   const FactorCourse* course_;
   Eigen::MatrixXd by_stress_;  // 6 x places
-  Eigen::MatrixXd by_load_;    // channels x instants: of the support; empty: none
+  Eigen::MatrixXd by_load_;    // slopes of the support, channels x instants; empty: none
 };
 
-/// Divided by their sum; empty where that is not positive.
+/// The derivative divided by its sum; empty where that is not positive.
 std::vector<double> shares_of(const Eigen::VectorXd& derivative);
 
-/// Of a node's cycles over a period. Empty where nothing changes.
-/// @param loads         those that `search` has
-/// @param with_channels else their shares stay empty
-StressShares shares_in_damage(const Responded& analysis, const ChannelHistory& loads,
+/// Shares of effects, and of channels where asked for, in the damage of a node's cycles over a period. Empty
+/// where nothing changes.
+/// @param loads         the loads that `search` has
+/// @param with_channels false: the shares of channels stay empty
+StressShares shares_in_damage(const Judged& analysis, const ChannelHistory& loads,
                               const FatiguePlaces& search, const FatigueRules& rules, const FatigueNode& node,
                               const CountedNode& counted, bool with_channels);
 
-/// Of a toe's cycles over a period, by effect. Empty where nothing changes.
+/// Shares of effects in the damage of a toe's cycles over a period. Empty where nothing changes.
 std::vector<double> shares_in_damage(const WeldPlace& place, const ChannelHistory& loads,
                                      const FactorCourse& course, const ToeStress& toe, const SnCurve& curve);
 

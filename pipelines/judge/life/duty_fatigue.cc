@@ -22,7 +22,7 @@ namespace {
 using Eigen::ArrayXXd;
 using Eigen::Index;
 
-/// Starts have many instants.
+/// Slack of the search in series of many instants, as starts are.
 constexpr double slack_of_long_series = 1e-6;
 
 /// One repetition of a start: its transient, or rest, and then a period of running.
@@ -45,12 +45,14 @@ using DerivativeBy = std::function<Eigen::VectorXd(const SnCurve&)>;
 /// What the cycles of a place come to, block by block.
 struct CountedBlocks {
   struct Block {
-    std::vector<StressBlock> running;            ///< in a second of operation
-    std::vector<StressBlock> starting;           ///< of start sequences, likewise
-    std::vector<StressBlock> running_in_starts;  ///< of the running in these
+    std::vector<StressBlock> running;            ///< cycles in a second of operation
+    std::vector<StressBlock> starting;           ///< cycles of start sequences in a second of operation
+    std::vector<StressBlock> running_in_starts;  ///< cycles of the running in start sequences
     double amplitude_Pa = 0, start_amplitude_Pa = 0;
-    double unresolved_share = 0, unresolved_start_share = 0;  ///< of these
-    double largest_Pa = 0;  ///< amplitude and size of the mean of the largest cycles
+    /// What the instants leave unresolved of these amplitudes.
+    double unresolved_share = 0, unresolved_start_share = 0;
+    /// Amplitude plus size of the mean of the largest cycles; weld toes: largest size of the stress.
+    double largest_Pa = 0;
   };
   std::vector<Block> blocks;
   std::vector<DerivativeBy> derivatives;  ///< their sum is that of the damage
@@ -71,7 +73,7 @@ struct CountedBlocks {
   }
 };
 
-/// With all stresses times a factor.
+/// Damage of a block with all stresses times a factor.
 BlockDamage damage_of(const CountedBlocks::Block& block, const SnCurve& curve, double factor = 1) {
   const auto of = [&](const std::vector<StressBlock>& cycles) {
     return miner_damage(curve, scaled(cycles, factor));
@@ -252,7 +254,7 @@ public:
     return place;
   }
 
-  /// Of damage; where there is none, of what is left until there would be.
+  /// Orders places by damage; where there is none, by what is left until there would be.
   static bool is_worse(const DutyPlace& a, const DutyPlace& b) {
     const auto safety = [](const DutyPlace& place) {
       return place.life_safety.value_or(std::numeric_limits<double>::infinity());
@@ -291,7 +293,7 @@ private:
     return largest / 2;
   }
 
-  /// By how much the amplitude of a start's largest cycle may be larger between its instants.
+  /// Share by which the amplitude of a start's largest cycle may be larger between its instants.
   static double start_sampling_share(const UnitStresses& unit_Pa, const ArrayXXd& starting,
                                      double amplitude_Pa) {
     if (starting.cols() == 0 || !(amplitude_Pa > 0)) return 0;
@@ -318,8 +320,8 @@ private:
     return cycle.amplitude_Pa + std::abs(cycle.signed_mean_Pa);
   }
 
-  /// Those of FatiguePlaces::counted, or those of FatiguePlaces::stationary. The former compare places, by
-  /// damage: what the instants leave unresolved is not sought.
+  /// Directions of counting: `about` as FatiguePlaces::counted, `stationary` as FatiguePlaces::stationary.
+  /// The former compare places, by damage: what the instants leave unresolved is not sought.
   enum class Directions { about, stationary };
 
   DutyPlace at(std::size_t node, double error_share, Directions kind, CountedBlocks& counted) const {
@@ -361,8 +363,8 @@ private:
     if (block.starts_per_s > 0) count_start(node, counted, places, block, kind, own, derivatives);
   }
 
-  /// Along the direction in which a start does most damage beyond that of the running in it, with the support
-  /// that the running has.
+  /// Counts the cycles of a start along the direction in which it does most damage beyond that of the running
+  /// in it, with the support that the running has.
   void count_start(const FatigueNode& node, const CountedNode& of_running, const FatiguePlaces& places,
                    const BlockOnBody& block, Directions kind, CountedBlocks::Block& own,
                    std::vector<DerivativeBy>& derivatives) const {

@@ -21,8 +21,8 @@ struct BlockStress {
 
 struct BlockResult {
   std::string name;
-  double share = 0;            ///< of all time
-  double starts_per_day = 0;   ///< of all time, standstill included
+  double share = 0;            ///< share of all time
+  double starts_per_day = 0;   ///< starts in a day, standstill included
   bool has_transient = false;  ///< a start was followed over time; else it goes from rest to running at once
   std::vector<BlockStress> stresses;    ///< in the order of Scene::bodies
   std::vector<BearingResult> bearings;  ///< in the order of Scene::bearings
@@ -31,18 +31,21 @@ struct BlockResult {
 /// A bearing over all blocks. Lives are in operation.
 struct DutyBearing {
   std::string name;
-  double equivalent_load_N = 0;           ///< by turns: (sum n P^p / sum n)^(1/p)
-  std::optional<double> life_h;           ///< L10h by sum of shares / lives; none: never loaded
-  std::optional<double> modified_life_h;  ///< likewise, where the scene asks for it
+  double equivalent_load_N = 0;  ///< by turns: (sum n P^p / sum n)^(1/p)
+  std::optional<double> life_h;  ///< L10h by sum of shares / lives; none: never loaded
+  /// Modified life by sum of shares / lives, where the scene asks for it.
+  std::optional<double> modified_life_h;
 };
 
 struct DutyResult {
   double in_operation = 0;  ///< share of all time, the sum of the blocks'
   std::vector<BlockResult> blocks;
-  std::map<std::string, std::vector<DutyPlace>> places;     ///< by body whose fatigue the scene asks for
-  std::map<std::string, std::vector<std::string>> effects;  ///< of their shares, likewise
+  std::map<std::string, std::vector<DutyPlace>> places;  ///< by body whose fatigue the scene asks for
+  /// Effects that the shares of these places belong to, by body.
+  std::map<std::string, std::vector<std::string>> effects;
   std::vector<DutyBearing> bearings;
-  std::vector<std::string> warnings;  ///< of the blocks' loads, which the scene's own running does not have
+  /// Warnings of the blocks' loads that the scene's own running does not have.
+  std::vector<std::string> warnings;
 };
 
 /// @param blocks  with bearings

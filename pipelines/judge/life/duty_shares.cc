@@ -25,7 +25,7 @@ std::vector<std::string> effects_of_blocks(const std::vector<BlockOnBody>& block
   return effects;
 }
 
-/// By a history's own effects, at the entries of those of all blocks.
+/// Values by a history's own effects as values by the effects of all blocks.
 VectorXd DutyShares::on_all(const VectorXd& own, const std::vector<std::string>& names) const {
   VectorXd result = VectorXd::Zero(n_effects());
   for (std::size_t e = 0; e < names.size(); ++e)

@@ -25,7 +25,7 @@ using SlopesOf = std::function<AmplitudeSlopes(const EndsOfCycle&)>;
 struct PlaceInBlock {
   UnitStresses unit_Pa;
   const BlockOnBody& block;
-  const FactorCourse& course;  ///< of its running
+  const FactorCourse& course;  ///< course of the block's running
 };
 
 class DutyShares {
@@ -45,7 +45,7 @@ public:
   /// @param start        ends are columns of the start sequence: the transient, or rest, then
   ///                     FactorCourse::fine
   /// @param its_running  ends are columns of FactorCourse::fine
-  /// @param support      of the running
+  /// @param support      slopes of the running's support
   Eigen::VectorXd starting(const PlaceInBlock& at, const WeighedCycles& start,
                            const WeighedCycles& its_running, const SlopesOf& slopes_of, const SnCurve& curve,
                            const SupportSlopes& support = {}) const;

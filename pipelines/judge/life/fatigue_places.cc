@@ -24,7 +24,7 @@ Stress as_stress(const Eigen::Matrix<double, 6, 1>& components) {
 
 constexpr double slack_of_search = 1e-6;
 constexpr double life_without_wish_s = 1e8;
-/// By which ends of a cycle between the places of the search may leave the polynomial, as a share.
+/// Share by which ends of a cycle between the places of the search may leave the polynomial.
 constexpr double off_the_polynomial = 1e-3;
 constexpr double places_per_period = 48, places_in_search = 24;
 
@@ -111,9 +111,9 @@ std::vector<FatigueNode> FatiguePlaces::worst_of(const std::vector<std::size_t>&
   return result;
 }
 
-/// Half of the difference of two stresses has at most the larger von Mises stress of both, which the instants
-/// tell but for what they miss, and at most the sum of the channels' own: exact zero where no channel
-/// changes.
+/// Largest amplitude that a node can have. Half of the difference of two stresses has at most the larger von
+/// Mises stress of both, which the instants tell but for what they miss, and at most the sum of the channels'
+/// own: exact zero where no channel changes.
 double FatiguePlaces::most_amplitude_Pa(std::size_t node, const UnitStresses& unit) const {
   double of_channels_Pa = 0, missed_Pa = 0;
   for (Eigen::Index k = 0; k < unit.cols(); ++k) {
@@ -124,11 +124,11 @@ double FatiguePlaces::most_amplitude_Pa(std::size_t node, const UnitStresses& un
   return std::min(of_channels_Pa, largest_Pa_[node] + missed_Pa);
 }
 
-/// Without support by the gradient. Two stresses of a ball of radius R that differ by twice a have their
-/// middle within sqrt(R^2 - a^2) of its centre. What is equivalent at R = -1 grows with the amplitude by one
-/// at least and with the mean by M at most. So a smaller than A, the largest, may win by
-/// M sqrt(R^2 - a^2) - (A - a), no more, of which the largest is at a = R / sqrt(1 + M^2), or at A below
-/// that.
+/// Largest utilisation that a node can have, without support by the gradient. Two stresses of a ball of
+/// radius R that differ by twice a have their middle within sqrt(R^2 - a^2) of its centre. What is equivalent
+/// at R = -1 grows with the amplitude by one at least and with the mean by M at most. So a smaller than A,
+/// the largest, may win by M sqrt(R^2 - a^2) - (A - a), no more, of which the largest is at a = R / sqrt(1 +
+/// M^2), or at A below that.
 double FatiguePlaces::most_utilisation(const StressBall& ball, double amplitude_Pa) const {
   const double R = ball.radius_Pa * (1 + off_the_polynomial),
                A = std::min(amplitude_Pa * (1 + off_the_polynomial), R);
@@ -152,7 +152,8 @@ bool FatiguePlaces::is_surely_within(double utilisation, const UnitStresses& uni
   return false;
 }
 
-/// In proportion: sum of h A_h^k over the orders, A_h the larger half axis of the deviator's ellipse.
+/// Damage of a node's harmonics, up to a factor: sum of h A_h^k over the orders, A_h the larger half axis of
+/// the deviator's ellipse.
 double FatiguePlaces::harmonics_damage_about(std::size_t node) const {
   const auto unit = unit_stresses_at(analysis_.responses, node);
   const auto coordinates = deviatoric_coordinates(unit);
@@ -166,7 +167,8 @@ double FatiguePlaces::harmonics_damage_about(std::size_t node) const {
   return damage;
 }
 
-/// Of instants alone there is no need to weigh all.
+/// Half of the change of the channels between two places of the course. Between two instants only they count,
+/// and the weights of the others need not be taken.
 Eigen::VectorXd FatiguePlaces::half_change(double from, double to) const {
   const auto first = course_.instant_alone(from), second = course_.instant_alone(to);
   if (first && second) return 0.5 * (loads_.values.col(*second) - loads_.values.col(*first)).matrix();

@@ -24,13 +24,13 @@ struct FatigueNode {
   StressCycle cycle{};        ///< no pair of instants differs more, nor of what lies between them
   double from = 0, to = 0;    ///< its instants: i + share of the step to the next
   double gradient_per_m = 0;  ///< related stress gradient of the amplitude
-  double utilisation = -1;    ///< of what is allowed: j_D over the safety against endurance
+  double utilisation = -1;    ///< j_D over the safety against endurance: the share of what is allowed
 };
 
 /// A node's cycles, counted along the direction in which they damage most (damage_direction.h).
 struct CountedNode {
   std::vector<StressBlock> blocks;  ///< shares of what is endured, of one period
-  double amplitude_Pa = 0;          ///< of the largest of them, along the direction
+  double amplitude_Pa = 0;          ///< amplitude of the largest of them, along the direction
   DeviatoricDirection direction = DeviatoricDirection::Zero();
   EnduranceLimit limit;     ///< with the gradient of that largest one
   double from = 0, to = 0;  ///< the instants of that gradient: i + share of the step to the next
@@ -38,9 +38,9 @@ struct CountedNode {
 
 /// d ln(1 / sigma_WK) by the loads of a cycle: what they do to the support by the stress gradient.
 struct SupportSlopes {
-  Eigen::VectorXd by_change;  ///< by the change of each channel's load between the instants [1/unit]; empty:
-                              ///< no support
-  double from = 0, to = 0;    ///< i + share of the step to the next
+  /// Slopes by the change of each channel's load between the instants [1/unit]; empty: no support.
+  Eigen::VectorXd by_change;
+  double from = 0, to = 0;  ///< i + share of the step to the next
   Eigen::Matrix<double, 6, 1> form = Eigen::Matrix<double, 6, 1>::Zero();  ///< they are its turning points
 };
 
@@ -55,7 +55,7 @@ Eigen::ArrayXd channel_sizes_Pa(const fem::UnitResponses& responses);
 
 class FatiguePlaces {
 public:
-  /// @param analysis   of the body: nodes, unit responses
+  /// @param analysis   analysis of the body: nodes, unit responses
   /// @param loads      with the channels of the unit responses
   /// @param largest_Pa von Mises stress over the cycle at most, by node
   /// All outlive this.
@@ -70,13 +70,13 @@ public:
 
   FatigueNode at(std::size_t node) const;
 
-  /// Along the worst direction to some percent of its damage, which tells nodes apart.
-  /// @param duration_s  of the period
+  /// Cycles counted along the worst direction to some percent of its damage, which tells nodes apart.
+  /// @param duration_s  duration of the period
   CountedNode counted(const FatigueNode& node, double duration_s) const;
-  /// Along the direction near by from which turning changes the damage in second order only.
+  /// Cycles counted along the direction near by from which turning changes the damage in second order only.
   CountedNode stationary(const FatigueNode& node, const CountedNode& counted) const;
 
-  /// By how much the amplitude may be larger than at the instants, or on the polynomial through them, as a
+  /// Share by which the amplitude may be larger than at the instants, or on the polynomial through them, as a
   /// share of that of the counted cycles, and at samples that they pass over; 0 where the instants resolve
   /// the loads (time_sampling.h).
   double unresolved_share(const FatigueNode& node, const CountedNode& counted) const;
@@ -89,7 +89,7 @@ public:
 
   /// The loads at two instants or between them.
   ChannelHistory between(double from, double to) const;
-  /// Half of their change between two instants, as loads of one instant.
+  /// Half of the change of the loads between two instants, as loads of one instant.
   BodyLoads half_change_between(double from, double to) const;
 
 private:
@@ -116,8 +116,8 @@ private:
   const FatigueRules& rules_;
   FactorCourse course_, of_search_;
   AmplitudeBound bound_;
-  Eigen::ArrayXd half_ranges_;  // of the channels
-  Eigen::ArrayXd missed_;       // by the instants, of each channel
+  Eigen::ArrayXd half_ranges_;  // half ranges of the channels
+  Eigen::ArrayXd missed_;       // part of each channel that the instants miss
   double most_per_Pa_;          // bound of the utilisation per von Mises stress
 };
 

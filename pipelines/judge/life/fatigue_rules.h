@@ -1,4 +1,4 @@
-/// The rules of fatigue with the factors of one body's scene (pipelines/fatigue).
+/// The rules of fatigue with the factors of one body's scene (pipelines/base/fatigue).
 #pragma once
 
 #include <vector>

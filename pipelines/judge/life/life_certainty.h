@@ -29,7 +29,7 @@ constexpr double least_cycles_of_curves = 1e4;
 /// @param error_share  whole error of the stress; from 1 on nothing is known of a life, and of what
 ///                     seems to endure the least life alone; infinite: nothing, but that what has no
 ///                     amplitude endures
-/// @param beyond       of beyond_curve: with a text there is no range
+/// @param beyond       text of beyond_curve: where there is one there is no range
 /// @param life_s       with all stresses times a factor; none: endures
 LifeCertainty certainty_of(double error_share, const std::string& beyond,
                            const std::function<std::optional<double>(double)>& life_s);
@@ -38,7 +38,7 @@ LifeCertainty certainty_of(double error_share, const std::string& beyond,
 /// where the error is not known.
 std::optional<double> least_safety(double safety, double error_share);
 
-/// Amplitudes times a factor.
+/// The blocks with amplitudes times a factor.
 std::vector<StressBlock> scaled(std::vector<StressBlock> blocks, double factor);
 
 /// Why a curve does not hold for such cycles: stress beyond the yield strength, or an amplitude of fewer

@@ -16,17 +16,17 @@ namespace pipelines {
 /// A fillet by DIN 743. Nominal stresses are those of the thinner section next to it, about its own axis.
 struct NominalFatigue {
   std::string fillet;     ///< the feature, "fillet A/B"
-  double z_m = 0;         ///< of the section
-  double diameter_m = 0;  ///< of the section
+  double z_m = 0;         ///< place of the section
+  double diameter_m = 0;  ///< diameter of the section
   DinLoad load;           ///< over the cycle (nominal_load)
   DinTriple shape_factor;
   DinSafety safety;        ///< DIN asks for 1.2
-  double error_share = 0;  ///< of the local amplitude, and so of the shape factor; infinite: not known
-  /// Against fatigue, with the local amplitude larger by that; none: not known.
+  double error_share = 0;  ///< error of the local amplitude, and so of the shape factor; infinite: not known
+  /// Safety against fatigue, with the local amplitude larger by that error; none: not known.
   std::optional<double> least_safety;
 };
 
-/// Of von Mises stress in a fillet.
+/// Local amplitude of von Mises stress in a fillet.
 struct LocalAmplitude {
   double value_Pa = -1;  ///< negative: not known
   double error_share = std::numeric_limits<double>::infinity();
@@ -38,8 +38,8 @@ struct LocalAmplitude {
 /// whole, whichever way it lies to what changes, as if both met in one fibre. That is on the safe side.
 DinLoad nominal_load(const SectionResult& section);
 
-/// Of the shape factor by published fits (fem/beam/fillet_factors.h) that which makes the local stress
-/// amplitude the program's own: the fits share it out among tension, bending and torsion.
+/// Shape factors that make the local stress amplitude the program's own: published fits
+/// (fem/beam/fillet_factors.h) share it out among tension, bending and torsion.
 /// @param local_Pa    amplitude of von Mises stress in the fillet, >= 0
 /// @param nominal_Pa  amplitudes
 DinTriple own_shape_factor(const DinTriple& published, const DinTriple& nominal_Pa, double local_Pa);
@@ -55,9 +55,10 @@ bool is_din_steel(const GroupConstants& group);
 /// Whether there is a fillet between solid segments: the only notch that is taken.
 bool has_din_fillet(const meshes::Shaft& shaft);
 
-/// Every fillet between solid segments of a parametric shaft, least safety first; none of other bodies.
+/// Judges every fillet between solid segments of a parametric shaft, least safety first; none of other
+/// bodies.
 /// @param loads               with the channels of the analysis
-/// @param local_amplitude  of a fillet, by feature
+/// @param local_amplitude  amplitude of a fillet, by feature
 std::vector<NominalFatigue> din_743_of_fillets(
     const Judged& analysis, const ChannelHistory& loads,
     const std::function<LocalAmplitude(const std::string&)>& local_amplitude);

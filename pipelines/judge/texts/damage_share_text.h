@@ -13,7 +13,7 @@ namespace pipelines {
 std::string damage_text(const std::vector<std::string>& effects, const std::vector<double>& shares,
                         bool is_damaged);
 
-/// By effect; empty without shares.
+/// Shares by effect; empty without shares.
 summary::Json effect_shares_json(const std::vector<std::string>& effects, const std::vector<double>& shares);
 
 }  // namespace pipelines

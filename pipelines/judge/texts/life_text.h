@@ -1,6 +1,7 @@
 /// Lives and safeties in words, and as summary.json has them.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -32,7 +33,7 @@ std::string life_of_row(const summary::Json& row);
 /// The same of a row of summary.json, by its two keys.
 std::string safety_of_row(const summary::Json& row, const char* safety, const char* least);
 
-/// Of a life in seconds, h; null: endures.
+/// A life in seconds as h; null: endures.
 summary::Json hours_json(const std::optional<double>& life_s);
 
 /// least_safety for summary.json; null: not known, or nothing changes.
@@ -45,21 +46,20 @@ summary::Json life_range_json(const LifeCertainty& certainty);
 summary::Json beyond_json(const LifeCertainty& certainty);
 
 /// The fields that every life has: hours, what its error leaves of them, and why there may be none.
-/// @param life_s     of a row: none, it endures
-/// @param certainty  of a row
+/// @param life_s     life of a row; none: it endures
+/// @param certainty  certainty of that life
 template <typename Row, typename Life, typename Certainty>
 FieldTable<Row> life_fields(const Life& life_s, const Certainty& certainty) {
   return {
-      FieldOf<Row>("life", quantities::hours, "in operation; empty: endures",
-                   [=](const Row& r) { return hours_json(life_s(r)); })
-          .labelled("life")
+      FieldOf<Row>("life", quantities::hours, "in operation; empty: endures", "life",
+                   [=](const Row& r) { return hours_json(std::invoke(life_s, r)); })
           .shown_as([](const summary::Json& row) { return life_of_row(row); }),
       FieldOf<Row>("life_range", quantities::range_of_hours,
                    "life at all stresses times 1 plus and minus their whole error",
-                   [=](const Row& r) { return life_range_json(certainty(r)); })
+                   [=](const Row& r) { return life_range_json(std::invoke(certainty, r)); })
           .in_column("life"),
       FieldOf<Row>("beyond_sn_curve", quantities::text, "why no S-N curve holds there; empty: it holds",
-                   [=](const Row& r) { return beyond_json(certainty(r)); }),
+                   [=](const Row& r) { return beyond_json(std::invoke(certainty, r)); }),
   };
 }
 

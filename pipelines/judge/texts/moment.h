@@ -14,7 +14,7 @@ struct Moment {
   double angle_rad = 0;  ///< within [0, 2 pi)
 };
 Moment moment_of(const Scene& scene, const kinetics::LoadHistory& loads, Eigen::Index instant);
-/// Between the instants, which are equidistant.
+/// The moment of a place between the instants, which are equidistant.
 /// @param instant  i + share of the step to the next
 Moment moment_between(const Scene& scene, const kinetics::LoadHistory& loads, double instant);
 

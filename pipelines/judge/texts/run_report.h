@@ -19,11 +19,11 @@ struct RunReport {
   const Scene& scene;
   const kinetics::LoadHistory& loads;
   const std::vector<Judged>& bodies;
-  const std::vector<MassFigure>& masses;  ///< of the load stage beside those of the meshes
+  const std::vector<MassFigure>& masses;  ///< masses of the load stage beside those of the meshes
   const std::vector<StageCost>& costs;
   std::vector<BearingResult> bearings = {};
   const DutyResult* duty = nullptr;        ///< null: the scene has no operating blocks
-  const TorsionReport* torsion = nullptr;  ///< of a drive train
+  const TorsionReport* torsion = nullptr;  ///< torsion of a drive train; null for other machines
 };
 
 }  // namespace pipelines

@@ -22,7 +22,7 @@ std::string whole_percent(double share) {
   return fmt::format("{:.0f} %", 100 * share);
 }
 
-/// With which a number shows two digits at least.
+/// Decimals with which a number shows two digits at least.
 int decimals_of(double number) {
   constexpr int most = 6;
   return number > 0 ? std::clamp(1 - int(std::floor(std::log10(number))), 0, most) : 1;

@@ -29,7 +29,7 @@ std::string largest_shares(std::vector<NamedShare> shares);
 struct ZoneFigures {
   std::string feature, place;
   double peak_Pa = 0;
-  double error_Pa = 0;  ///< of the peak; NaN: not estimated
+  double error_Pa = 0;  ///< error of the peak; NaN: not estimated
   double safety = 0;    ///< yield strength / peak
   std::array<double, 3> peak_m{};
   double volume_m3 = 0;

@@ -23,7 +23,7 @@ struct Used {
   std::optional<double> life_safety;  ///< factor on all stresses; none: nothing changes
   double error_share = 0;             ///< infinite: not known
   const LifeCertainty* certainty = nullptr;
-  double range_Pa = 0;  ///< of the largest cycle: twice the amplitude
+  double range_Pa = 0;  ///< range of the largest cycle: twice the amplitude
   std::string brought_by;
 };
 

@@ -20,7 +20,7 @@ struct Stressed {
   std::string place, when;               ///< when: " in block fine"; empty: running
 };
 
-/// Of running; without operating blocks, or with blocks that have other places.
+/// The governing stress of running; without operating blocks, or with blocks that have other places.
 Stressed in_running(const Judged& analysis) {
   const auto stress = governing_stress(analysis);
   const double share = stress.value_Pa > 0 ? stress.errors.total_Pa() / stress.value_Pa : 0;

@@ -29,7 +29,7 @@ void require_finite(const kinetics::PublishedTables& tables) {
   }
 }
 
-/// With which amplitude a frequency turns up in the elements' torques, over their largest.
+/// Amplitude with which a frequency turns up in the elements' torques, over their largest.
 double torque_share(const kinetics::ForcedResponse& forced, const std::vector<ElementTorque>& torques,
                     double frequency_rad_s) {
   constexpr double same = 1e-9;
@@ -87,10 +87,6 @@ TorsionReport report_of(const Scene& scene, const Machine& machine) {
 }
 
 }  // namespace
-
-bool LineMargin::matters() const {
-  return std::abs(margin) <= near_resonance || torque_share >= felt_torque_share;
-}
 
 TorsionReport report_torsion(const Scene& scene, const Machine& machine) {
   return with_place(scene.machine_origin, [&] { return report_of(scene, machine); });

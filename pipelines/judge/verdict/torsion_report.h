@@ -16,7 +16,7 @@ namespace pipelines {
 struct ElementTorque {
   std::string element;
   double mean_Nm = 0;             ///< on the shaft of its first inertia
-  double largest_Nm = 0;          ///< of |T| over the scene's window
+  double largest_Nm = 0;          ///< largest |T| over the scene's window
   double largest_reduced_Nm = 0;  ///< the same on the reference shaft
   double largest_shear_Pa = 0;    ///< K_t T r / I_p; zero where no diameter is given
 };
@@ -26,12 +26,9 @@ struct LineMargin : kinetics::ResonanceMargin {
   /// Torque's amplitude at this frequency, of all excitations that have it, over the largest torque of the
   /// same element: of the element where that is most.
   double torque_share = 0;
-
-  /// Near a natural frequency, or felt: what tables show. The rest is counted.
-  bool matters() const;
 };
 
-/// What `matters` means: distance from a natural frequency, share of a torque.
+/// What tables show of margins: distance from a natural frequency, share of a torque.
 inline constexpr double near_resonance = 0.2, felt_torque_share = 0.05;
 
 struct TorsionReport {
@@ -52,9 +49,9 @@ TorsionReport report_torsion(const Scene& scene, const Machine& machine);
 void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& report, bool all = false);
 std::string torsion_json(const Scene& scene, const TorsionReport& report);
 
-/// In `directory`: modes.csv (frequencies, shapes, energy shares), forced.csv (amplitude and phase of every
-/// harmonic at every inertia and element), campbell.csv, margins.csv; transient.csv
-/// (torque and angle over time, energies) and the paper's tables (published_torsion.h) where there are any.
+/// Writes into `directory`: modes.csv (frequencies, shapes, energy shares), forced.csv (amplitude and phase
+/// of every harmonic at every inertia and element), campbell.csv, margins.csv; transient.csv (torque and
+/// angle over time, energies) and the paper's tables (published_torsion.h) where there are any.
 void write_torsion_files(const std::filesystem::path& directory, const Scene& scene,
                          const TorsionReport& report);
 

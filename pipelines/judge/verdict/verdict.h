@@ -22,7 +22,7 @@ std::string to_string(Judgement judgement);
 
 /// One criterion at its weakest place.
 struct Finding {
-  std::string criterion;  ///< of names_of_criteria
+  std::string criterion;  ///< one of names_of_criteria
   Judgement judgement = Judgement::ok;
   std::string place;             ///< feature, weld toe, bearing; may be empty
   std::string figure;            ///< with its error and its limit
@@ -44,7 +44,7 @@ struct Verdict {
   std::vector<std::string> left_out;  ///< what the scene does not ask for: "resonance", "fatigue of shaft"
 };
 
-/// @param report  of a run, with all that its scene asks for
+/// @param report  report of a run, with all that its scene asks for
 Verdict judge(const RunReport& report);
 
 }  // namespace pipelines

@@ -12,6 +12,8 @@
 namespace pipelines {
 namespace {
 
+using summary::Json;
+
 std::vector<const Finding*> worst_first(const PartVerdict& part) {
   std::vector<const Finding*> findings;
   for (const auto& finding : part.findings) findings.push_back(&finding);
@@ -31,8 +33,13 @@ const PartVerdict* worst_part(const Verdict& verdict) {
   return found == verdict.parts.end() ? nullptr : &*found;
 }
 
-summary::Json margin_json(const std::optional<double>& margin) {
-  return margin ? summary::number_or_none(*margin) : summary::Json(nullptr);
+/// "12 h of 20,000 h wanted, at web 2; to do: ..."
+std::string all_of_finding(const Json& row) {
+  const auto text = [&](const std::string& before, const char* key) {
+    const auto value = row.at(key).get<std::string>();
+    return value.empty() ? "" : before + value;
+  };
+  return text("", "figure") + text(", at ", "place") + text("; to do: ", "remedy");
 }
 
 }  // namespace
@@ -70,22 +77,36 @@ void print_verdict(std::ostream& out, const Verdict& verdict) {
   }
 }
 
-summary::Json verdict_json(const Verdict& verdict) {
+FieldTable<Finding> finding_fields() {
+  using Field = FieldOf<Finding>;
+  const auto margin = [](const char* key, const char* meaning, std::optional<double> Finding::*of) {
+    return Field(key, quantities::ratio, meaning,
+                 [=](const Finding& f) { return f.*of ? summary::number_or_none(*(f.*of)) : Json(nullptr); });
+  };
+  return without_csv(FieldTable<Finding>{
+      {"judgement", quantities::text, "`OK`, `NOT JUDGED` or `NOT OK`", "verdict",
+       [](const Finding& f) { return to_string(f.judgement); }},
+      {"criterion", quantities::text, "what is weighed", "criterion", &Finding::criterion},
+      Field("figure", quantities::text, "with its error and its limit",
+            "figure and limit, at the weakest place", &Finding::figure)
+          .shown_as(all_of_finding),
+      {"place", quantities::text, "the weakest", &Finding::place},
+      {"remedy", quantities::text, "what to do, or what is missing", &Finding::remedy},
+      margin("margin", "factor on all loads at which the limit is met; null: no figure", &Finding::margin),
+      margin("margin_least", "what the whole error leaves of it; null: not known", &Finding::least_margin),
+  });
+}
+
+Json verdict_json(const Verdict& verdict) {
   auto json = summary::object({{"judgement", to_string(verdict.judgement)},
                                {"headline", headline(verdict)},
                                {"left_out", verdict.left_out},
-                               {"parts", summary::Json::object()}});
+                               {"parts", Json::object()}});
   for (const auto& part : verdict.parts) {
     auto& entry = json["parts"][part.name];
-    entry = summary::object({{"judgement", to_string(part.judgement)}, {"findings", summary::Json::array()}});
+    entry = summary::object({{"judgement", to_string(part.judgement)}, {"findings", Json::array()}});
     for (const auto* finding : worst_first(part))
-      entry["findings"].push_back(summary::object({{"criterion", finding->criterion},
-                                                   {"judgement", to_string(finding->judgement)},
-                                                   {"place", finding->place},
-                                                   {"figure", finding->figure},
-                                                   {"remedy", finding->remedy},
-                                                   {"margin", margin_json(finding->margin)},
-                                                   {"margin_least", margin_json(finding->least_margin)}}));
+      entry["findings"].push_back(summary_row(finding_fields(), *finding));
   }
   return json;
 }

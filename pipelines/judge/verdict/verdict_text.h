@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "pipelines/base/fields/json_values.h"
+#include "pipelines/base/fields/field.h"
 #include "pipelines/judge/verdict/verdict.h"
 
 namespace pipelines {
@@ -20,6 +20,9 @@ void print_verdict(std::ostream& out, const Verdict& verdict);
 
 /// "; not weighed: resonance": what the scene leaves out, behind other words; empty: nothing.
 std::string left_out_text(const Verdict& verdict);
+
+/// verdict.parts.<part>.findings.
+FieldTable<Finding> finding_fields();
 
 /// {"judgement", "headline", "left_out", "parts": {name: {"judgement", "findings": [...]}}}
 summary::Json verdict_json(const Verdict& verdict);

@@ -19,7 +19,7 @@ using Eigen::Index;
 
 namespace {
 
-// Ports.
+// The chamber's ports.
 constexpr const char *bore = "housing_bore", *wall = "inner_wall";
 std::string foot(std::size_t i) {
   return "spring_foot_" + std::to_string(i);
@@ -114,7 +114,7 @@ void check_guide_by_feet(SceneTable& table, const kinetics::VibratoryMill& mill)
 
 /// A file's ports lie where the machine has its loads, or these do not balance.
 void require_places(const BodyScene& body, const kinetics::VibratoryMill& mill, const LoadedBody& loaded) {
-  constexpr double off = 1e-6;  // of the distance between the axes
+  constexpr double off = 1e-6;  // share of the distance between the axes
   const double allowed_m = off * mill.chamber_centre_m.norm();
   const auto require = [&](const std::string& name, const std::string& key, const Eigen::Vector2d& wanted_m) {
     for (const auto& port : loaded.ports)

@@ -16,13 +16,14 @@ inline constexpr const char* pitch_guide = "pitch_guide";
 
 /// What the chamber's loads depend on beside the load stage.
 struct ChamberLoading {
-  std::vector<std::string> effects;     ///< of the scene
+  std::vector<std::string> effects;     ///< effects of the scene
   std::vector<AttachedMass> structure;  ///< move with the chamber: covers, differences to the mesh
   std::vector<AttachedMass> exciter;    ///< move with the exciter's housing
   PitchGuide guide = PitchGuide::body;
 };
 
-/// In axes that translate with the chamber; positions from E' (coupling of loads and bodies, section 3).
+/// Loads in axes that translate with the chamber; positions from E' (coupling of loads and bodies, section
+/// 3).
 ///
 /// Ports: housing_bore (+B; mx, my for what is not symmetric in z), spring_foot_1.. (f_i), inner_wall (F_w
 /// through the axis C and the friction torque r e(chi) x F_w), volume.structure and volume.exciter (gravity,

@@ -21,7 +21,7 @@ namespace {
 class DrumKind : public BodyKind {
 public:
   static constexpr const char* spin = "drum_spin";  // its own effect
-  // Its ports.
+  // The drum's ports.
   static constexpr const char *wall = "inner_wall", *trunnion_1 = "trunnion_1", *trunnion_2 = "trunnion_2",
                               *pulley = "pulley_seat";
 

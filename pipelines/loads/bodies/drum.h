@@ -13,11 +13,11 @@ namespace pipelines {
 
 /// What the drum's loads depend on beside the load stage.
 struct DrumLoading {
-  std::vector<std::string> effects;    ///< of the scene; `drum_spin` is the body's own
+  std::vector<std::string> effects;    ///< effects of the scene; `drum_spin` is the body's own
   std::vector<AttachedMass> attached;  ///< the pulley, differences to the mesh
 };
 
-/// In axes that turn with the drum, alpha = psi (coupling of loads and bodies, section 4).
+/// Loads in axes that turn with the drum, alpha = psi (coupling of loads and bodies, section 4).
 ///
 /// Ports: inner_wall (force through A and the torque l_AC u x F), trunnion_1, trunnion_2 (the load stage's
 /// reaction split by statics), pulley_seat (belt: force and torque), volume (drum_transport, drum_gravity;

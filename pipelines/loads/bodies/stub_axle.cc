@@ -18,9 +18,9 @@ namespace {
 
 class StubAxleKind : public BodyKind {
 public:
-  // Its own effects.
+  // The axle's own effects.
   static constexpr const char *weight = "axle_gravity", *transport = "axle_transport";
-  // Its ports.
+  // The axle's ports.
   static constexpr const char *bearing = "bearing", *clamp = "clamp";
 
   std::string machine_type() const override { return "planetary_mill"; }

@@ -11,12 +11,12 @@
 
 namespace pipelines {
 
-/// In the carrier's axes (coupling of loads and bodies, section 5).
+/// Loads in the carrier's axes (coupling of loads and bodies, section 5).
 ///
 /// Ports: bearing (its share of the load on the axle: what acts at mid-span half, belt and pulley by their
 /// plane), volume (ax, ay, spin of the carrier), clamp (minus the resultant: fx, fy, mx, my; torque only from
 /// rounding).
-/// @param effects  of the scene; `axle_gravity`, `axle_transport` are the body's own
+/// @param effects  effects of the scene; `axle_gravity`, `axle_transport` are the body's own
 /// @throws StageRefused as distribute_drum
 BodyLoads distribute_stub_axle(const kinetics::LoadHistory& loads, const kinetics::PlanetaryMill& mill,
                                const LoadedBody& body, const StubAxleOptions& options,

@@ -213,13 +213,6 @@ public:
 
 }  // namespace
 
-BodyLoads distribute_table(const kinetics::LoadTable& table, const std::vector<std::string>& effects,
-                           const kinetics::TimeGrid& grid, const LoadedBody& body,
-                           const TableBodyOptions& options) {
-  const auto phi_rad = kinetics::compute_loads(table, effects, grid).phi_rad;
-  return distribute_table_at(phi_rad, table, effects, grid, body, options);
-}
-
 BodyLoads distribute_table_at(const Eigen::ArrayXd& phi_rad, const kinetics::LoadTable& table,
                               const std::vector<std::string>& effects, const kinetics::TimeGrid& grid,
                               const LoadedBody& body, const TableBodyOptions& options) {
@@ -241,13 +234,13 @@ BodyLoads distribute_table_at(const Eigen::ArrayXd& phi_rad, const kinetics::Loa
     for (const auto& quantity : own.quantities)
       if (quantity.name.find('.') != std::string::npos) enter_table_load(collector, body, effect, quantity);
   }
-  // Of the loads; the bearings' follows with what they carry altogether.
+  // Pressures of the loads; the bearings' pressure follows with what they carry altogether.
   const auto& bearings = options.bearings;
   for (const auto& port : body.ports)
     if (std::find(bearings.begin(), bearings.end(), port.name) == bearings.end())
       collector.pressure(port.name);
-  // Along the axis first: off the axis of an eccentric port, that tilts the body, which the bearings then
-  // carry.
+  // Axial forces are balanced first: off the axis of an eccentric port, one tilts the body, which the
+  // bearings then carry.
   if (!options.axial_support.empty()) collector.react_axial(options.axial_support);
   if (!options.clamp.empty()) {  // what it carries spreads over the whole port
     collector.react_axial(options.clamp);

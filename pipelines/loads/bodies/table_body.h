@@ -14,11 +14,7 @@ namespace pipelines {
 /// Every load of the table goes to the port of its name, "volume" being the body itself (ax, ay, az, spin).
 /// What does not close is balanced by the supports that the scene names, effect by effect.
 /// @throws StageRefused if a port is missing, or a component does not belong to it
-BodyLoads distribute_table(const kinetics::LoadTable& table, const std::vector<std::string>& effects,
-                           const kinetics::TimeGrid& grid, const LoadedBody& body,
-                           const TableBodyOptions& options);
-
-/// The same at other angles of the drive than the instants of the grid.
+/// @param phi_rad  angles of the drive, those of the grid or others
 BodyLoads distribute_table_at(const Eigen::ArrayXd& phi_rad, const kinetics::LoadTable& table,
                               const std::vector<std::string>& effects, const kinetics::TimeGrid& grid,
                               const LoadedBody& body, const TableBodyOptions& options);

@@ -145,7 +145,7 @@ public:
     return {{effect_name::shaft_inertia, "Angular inertia of the shaft itself, -J phi'', from its mesh.",
              "coupling 6"}};
   }
-  /// Its own, then the forces that the scene puts on it, each effect once.
+  /// The shaft's own effects, then the forces that the scene puts on it, each effect once.
   std::vector<kinetics::EffectInfo> effects(const BodyScene& body) const override {
     auto table = own_effects();
     for (const auto& force : train_options(body).forces)
@@ -276,8 +276,8 @@ BodyLoads distribute_train_shaft(const kinetics::LoadHistory& loads, double mean
       collector.axial_force(force.port, force.effect, ArrayXd::Constant(n, force.force_N[2]));
   }
   if (!options.forces.empty()) {
-    // Along the axis first: off the axis of an eccentric port, that tilts the shaft, which the bearings then
-    // carry.
+    // Axial forces are balanced first: off the axis of an eccentric port, one tilts the shaft, which the
+    // bearings then carry.
     if (!options.axial_bearing.empty()) collector.react_axial(options.axial_bearing);
     collector.react(options.bearings[0], options.bearings[1]);
     for (const auto& port : body.ports) collector.pressure(port.name);

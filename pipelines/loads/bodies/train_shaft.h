@@ -10,11 +10,11 @@
 
 namespace pipelines {
 
-/// In the frame that turns with the shaft, counter-clockwise; its angle is the uniform running plus the
+/// Loads in the frame that turns with the shaft, counter-clockwise; its angle is the uniform running plus the
 /// vibration (coupling of loads and bodies, section 6). Torques at their ports, inertia as -rho phi'' z x p
 /// (effect `shaft_inertia`), viscous drag of the inertia at its bearings; bending only by the forces that the
 /// scene gives.
-/// @param effects   of the scene
+/// @param effects   effects of the scene
 /// @param attached  the differences to the mesh
 BodyLoads distribute_train_shaft(const kinetics::LoadHistory& loads, double mean_speed_rad_s,
                                  const LoadedBody& body, const TrainShaftOptions& options,

@@ -20,9 +20,9 @@ namespace {
 
 class VibratoryShaftKind : public BodyKind {
 public:
-  // Its own effects.
+  // The shaft's own effects.
   static constexpr const char *weight = "gravity_shaft", *inertia = effect_name::shaft_inertia;
-  // Its ports.
+  // The shaft's ports.
   static constexpr const char *seat = "eccentric_seat", *bearing_1 = "main_bearing_1",
                               *bearing_2 = "main_bearing_2", *debalance_1 = "debalance_1",
                               *debalance_2 = "debalance_2", *coupling = "coupling";

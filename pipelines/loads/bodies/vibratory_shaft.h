@@ -17,8 +17,8 @@ struct VibratoryShaftLoading {
   std::array<double, 2> debalance_shares{0.5, 0.5};
 };
 
-/// In the frame that turns with the shaft: F_xi = F . e(phi), F_eta = F_x sin(phi) + F_y cos(phi), torques
-/// unchanged (coupling of loads and bodies, section 2).
+/// Loads in the frame that turns with the shaft: F_xi = F . e(phi), F_eta = F_x sin(phi) + F_y cos(phi),
+/// torques unchanged (coupling of loads and bodies, section 2).
 ///
 /// Ports: eccentric_seat (-B), debalance_1, debalance_2 (force and torque by shares), main_bearing_1,
 /// main_bearing_2 (the resultant reaction split by statics), coupling (torque), and the volume (ax, ay: own

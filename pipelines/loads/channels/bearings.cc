@@ -11,7 +11,7 @@
 namespace pipelines {
 namespace {
 
-/// Of a channel "<port>.<component>"; empty if there is none.
+/// Values of a channel "<port>.<component>"; empty if there is none.
 std::optional<Eigen::ArrayXd> channel(const ChannelHistory& channels, const std::string& name) {
   for (std::size_t k = 0; k < channels.channels.size(); ++k)
     if (channels.channels[k].name == name) return channels.values.row(Eigen::Index(k)).transpose();
@@ -25,7 +25,7 @@ double speed_of(const BearingScene& bearing, const kinetics::LoadHistory& loads)
   return loads.speed_rad_s.abs().mean();
 }
 
-/// Of the drive from instant to instant, up to a factor: in a run-up the load counts by its turns.
+/// Turns of the drive from instant to instant, up to a factor: in a run-up the load counts by its turns.
 Eigen::ArrayXd turns_of(const kinetics::LoadHistory& loads) {
   const Eigen::Index n = loads.n_instants();
   const auto& speed = loads.speed_rad_s;

@@ -15,7 +15,7 @@ namespace pipelines {
 
 /// What a scene asks of a bearing beyond L10; empty what it does not ask, or what has no load to follow from.
 struct BearingAnswers {
-  std::optional<double> reliability;          ///< that the lives below belong to
+  std::optional<double> reliability;          ///< reliability that the lives below belong to
   std::optional<double> a1, a_iso;            ///< factors of ISO 281
   std::optional<double> modified_life_h;      ///< a1 a_ISO L10h
   std::optional<double> required_life_h;      ///< as the scene has it
@@ -37,7 +37,7 @@ struct BearingResult {
 std::vector<std::string> answer_lines(const BearingAnswers& answers);
 
 /// Force of a load over the cycle [N]; empty if there is none of that name.
-/// @param channels  of the bodies, in the order in which they are asked; none: the load stage alone
+/// @param channels  channels of the bodies, in the order in which they are asked; none: the load stage alone
 std::optional<Eigen::ArrayXd> force_of(const std::string& load, const kinetics::LoadHistory& loads,
                                        const std::vector<const ChannelHistory*>& channels);
 
@@ -48,14 +48,14 @@ std::vector<BearingResult> bearing_lives(const std::vector<BearingScene>& bearin
 
 /// Warns of bearings whose equivalent load is more than half of their dynamic rating: so far the life law of
 /// ISO 281 reaches, and beyond it rings and rolling elements yield.
-/// @param results  of bearing_lives of these bearings, in the same order
+/// @param results  results of bearing_lives of these bearings, in the same order
 /// @param loads    get the warnings
 void warn_beyond_ratings(const std::vector<BearingScene>& bearings, const std::vector<BearingResult>& results,
                          kinetics::LoadHistory& loads);
 
 /// Sentences on bearings whose port has a force along the shaft that ISO 281 would count: their loads are
 /// those across it.
-/// @param results  of bearing_lives with these channels
+/// @param results  results of bearing_lives with these channels
 std::vector<std::string> forces_along_bearings(const std::vector<BearingResult>& results,
                                                const std::vector<const ChannelHistory*>& channels);
 

@@ -202,7 +202,7 @@ Closure check_closure(const BodyLoads& loads, const std::vector<std::array<doubl
     const auto relative = [](double left, double own, double common, double made_of) {
       if (left == 0) return 0.0;
       const double error = left / (own > 1e-6 * common ? own : common);
-      // 88 were seen on 2,000 nodes; sums over n nodes are off by sqrt(n) of them.
+      // Source: bodies of 2,000 nodes leave up to 88 roundings; sums over n nodes are off by sqrt(n) of them.
       constexpr double rounding = 1024 * std::numeric_limits<double>::epsilon();
       const bool is_rounding = left <= rounding * made_of;
       return error > Closure::limit && is_rounding ? left / made_of : error;

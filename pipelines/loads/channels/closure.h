@@ -13,10 +13,10 @@ struct Closure {
   std::array<double, 3> force{};  ///< max over the instants of |sum F_c| / max over the instants of sum |F_c|
   std::array<double, 3> moment{};  ///< the same for moments about the origin
   std::array<double, 3> force_scale_N{}, moment_scale_Nm{};
-  double channel_resultant =
-      0;  ///< max over channels and components of |mesh - wanted| / scale of the channel
+  /// Max over channels and components of |mesh - wanted| / scale of the channel.
+  double channel_resultant = 0;
 
-  static constexpr double limit = 1e-9;  ///< of all three, far above rounding and far below any effect
+  static constexpr double limit = 1e-9;  ///< limit of all three, far above rounding and far below any effect
 
   bool holds() const;
   double worst_force() const;

@@ -148,7 +148,7 @@ void LoadCollector::enter(const meshes::Port& port, const char* component, Compo
   count(port.name, effect, centre_of(port), load);
 }
 
-/// Along z, from the middle of the port to where the resultant of its pressure acts.
+/// Distance along z from the middle of the port to where the resultant of its pressure acts.
 double LoadCollector::pressed_beside_m(const meshes::Port& port) const {
   const auto model = body_.pressures.find(port.name);
   if (port.kind == meshes::Port::Kind::face || model == body_.pressures.end()) return 0;
@@ -277,8 +277,8 @@ void LoadCollector::accelerate(const AttachedMass& mass, const std::string& effe
   enter(port, "fy", Component::fy, effect, force.row(1).transpose());
   if (largest(force.row(2).transpose()) > 0) {
     enter(port, "fz", Component::fz, effect, force.row(2).transpose());
-    Eigen::Array2Xd tilting(2,
-                            n_instants_);  // of an axial force through the mass centre, off the port's point
+    // Tilting moment of an axial force through the mass centre, off the port's point.
+    Eigen::Array2Xd tilting(2, n_instants_);
     tilting.row(0) = (s[1] - mass.mass_kg * p[1]) * field.translation_m_s2.row(2);
     tilting.row(1) = -(s[0] - mass.mass_kg * p[0]) * field.translation_m_s2.row(2);
     tilt(mass.port, effect, tilting);

@@ -30,8 +30,8 @@ struct LoadedBody {
   std::string name;  ///< "shaft", "chamber" ...
   std::vector<meshes::Port> ports;
   std::vector<RegionMass> regions;  ///< at least one
-  std::map<std::string, PressureModel>
-      pressures;                ///< by port; a half-cosine to the fourth harmonic where missing
+  /// Pressures by port; a half-cosine to the fourth harmonic where missing.
+  std::map<std::string, PressureModel> pressures;
   double plane_modulus_Pa = 0;  ///< E / (1 - nu^2), for contact with clearance
 
   /// @throws std::out_of_range naming the region
@@ -50,13 +50,14 @@ struct BodyLoads {
   ChannelHistory history;
   std::vector<fem::UnitLoad> unit_loads;
   std::map<std::string, PressureModel> pressures;  ///< by port that a pressure loads; half angles known
-  Eigen::Array2Xd
-      frame_bearing_force_N;  ///< vibratory shaft: what the bearings carry, own mass included; fixed frame
-  Eigen::ArrayXd drive_torque_Nm;      ///< vibratory shaft: clockwise positive, own mass included
-  Eigen::ArrayXd carried_moment_Nm;    ///< of a named guide (`pitch_guide`), counter-clockwise; empty: none
+  /// Vibratory shaft: what the bearings carry, own mass included; fixed frame.
+  Eigen::Array2Xd frame_bearing_force_N;
+  Eigen::ArrayXd drive_torque_Nm;  ///< vibratory shaft: clockwise positive, own mass included
+  /// Moment that a named guide (`pitch_guide`) carries, counter-clockwise; empty: none.
+  Eigen::ArrayXd carried_moment_Nm;
   double carried_moment_scale_Nm = 0;  ///< the sum of the moments' sizes that it is judged by
 
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
   BodyLoads();
   BodyLoads(const BodyLoads&);
   BodyLoads(BodyLoads&&) noexcept;
@@ -144,7 +145,7 @@ private:
 /// Resolves a planar force along axes that are turned counter-clockwise by alpha.
 Eigen::Array2Xd turned(const Eigen::Array2Xd& force, const Eigen::ArrayXd& alpha_rad);
 
-/// Where a port's load acts: on its axis, in the middle.
+/// Point where a port's load acts: on its axis, in the middle.
 Eigen::Vector3d centre_of(const meshes::Port& port);
 
 }  // namespace pipelines

@@ -1,10 +1,57 @@
 #include "pipelines/loads/channels/load_figures.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "pipelines/base/fields/field_outputs.h"
 #include "pipelines/scene/whole/machine_kind.h"
 
 namespace pipelines {
+namespace {
+
+using summary::Json, summary::number;
+
+/// What rounding leaves of a mean that is none is 0.
+std::string mean_of_row(const Json& row, const Field& mean) {
+  auto shown = row;
+  const double scale = std::max(std::abs(row.at("max").get<double>()), std::abs(row.at("min").get<double>()));
+  shown["mean"] = without_rounding(row.at("mean").get<double>(), scale);
+  return shown_value(mean, shown);
+}
+
+}  // namespace
+
+FieldTable<LoadFigure> load_fields() {
+  using Field = FieldOf<LoadFigure>;
+  const auto figure = [](const char* key, const char* meaning, double Statistics::*of) {
+    return Field(key, quantities::own_unit, meaning, key,
+                 [=](const LoadFigure& f) { return number(f.statistics.*of); });
+  };
+  const auto time = [](const char* key, const char* meaning, double LoadFigure::*at) {
+    return Field(key, quantities::time, meaning, at).without_summary();
+  };
+  const auto mean = figure("mean", "over the whole window", &Statistics::mean);
+  return {
+      Field("name", quantities::text, "of the quantity, or `<port>.<component>`", &LoadFigure::name)
+          .without_summary(),
+      {"unit", quantities::unit, "of its figures", "unit", &LoadFigure::unit},
+      figure("max", "largest, between the instants too where the machine knows it", &Statistics::max),
+      figure("min", "least, likewise", &Statistics::min),
+      mean.shown_as([mean](const Json& row) { return mean_of_row(row, mean); }),
+      figure("rms", "root mean square over the whole window", &Statistics::rms),
+      time("time_of_max", "of the largest", &LoadFigure::time_of_max_s),
+      time("time_of_min", "of the least", &LoadFigure::time_of_min_s),
+      Field("first", quantities::own_unit, "at the first instant; of sweeps alone", &LoadFigure::first)
+          .without_csv()
+          .without_summary(),
+  };
+}
+
+Json loads_json(const std::vector<LoadFigure>& figures) {
+  Json json;
+  for (const auto& figure : figures) json[figure.name] = summary_row(load_fields(), figure);
+  return json;
+}
 
 LoadFigure figure_of(const std::string& name, const std::string& unit, const Eigen::ArrayXd& values,
                      const Eigen::ArrayXd& time_s) {

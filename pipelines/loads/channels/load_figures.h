@@ -8,6 +8,7 @@
 #include "kinetics/train_crests.h"
 #include "kinetics/values/load_history.h"
 #include "pipelines/base/common/statistics.h"
+#include "pipelines/base/fields/field.h"
 #include "pipelines/scene/whole/scene.h"
 
 namespace pipelines {
@@ -31,13 +32,19 @@ struct LoadFigure {
   double first = 0;  ///< at the first instant
 };
 
-/// Of a series at the instants alone.
+/// The fields of statistics.csv and loads.<name>; sweeps have all numbers but the times.
+FieldTable<LoadFigure> load_fields();
+
+/// The table `loads` of summary.json; null without any.
+summary::Json loads_json(const std::vector<LoadFigure>& figures);
+
+/// Figure of a series by its instants alone.
 LoadFigure figure_of(const std::string& name, const std::string& unit, const Eigen::ArrayXd& values,
                      const Eigen::ArrayXd& time_s);
 
 /// Quantities that have statistics; of machines whose loads are samples, what is given at their ports too.
 /// @param scene  with the masses that it leaves to a mesh
-/// @param loads  of its load stage, in the scene's turns
+/// @param loads  loads of its load stage, in the scene's turns
 std::vector<LoadFigure> load_figures(const Scene& scene, const kinetics::LoadHistory& loads);
 
 /// Puts extremes, mean and RMS over the whole course in the place of those of the instants.

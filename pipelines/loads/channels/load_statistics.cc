@@ -6,6 +6,7 @@
 #include "kinetics/series/harmonics.h"
 #include "kinetics/series/load_spectrum.h"
 #include "pipelines/base/common/constants.h"
+#include "pipelines/base/fields/field_outputs.h"
 #include "pipelines/base/fields/shown_unit.h"
 #include "pipelines/base/files/csv.h"
 #include "pipelines/loads/channels/load_figures.h"
@@ -59,19 +60,16 @@ struct Rows {
 
 void write_extremes(const path& file, const std::vector<StatisticsSeries>& all,
                     const kinetics::LoadHistory& loads, const std::vector<kinetics::CourseFigures>& course) {
-  Rows rows(6);
+  auto rows = summary::Json::array();
   for (const auto& series : all) {
     auto of = figure_of(series.name, series.unit, series.values, loads.time_s);
     take_course(course, of);
-    const auto& s = of.statistics;
-    const auto unit = shown_unit(series.unit);
-    rows.add(series, {unit.value(s.max), unit.value(s.min), unit.value(s.mean), unit.value(s.rms),
-                      of.time_of_max_s, of.time_of_min_s});
+    rows.push_back(whole_row(load_fields(), of));
   }
-  rows.write(file, {"max", "min", "mean", "rms", "time_of_max", "time_of_min"}, {"", "", "", "", "s", "s"});
+  write_csv(file, csv_columns(fields_of(load_fields()), rows));
 }
 
-/// In (-pi, pi].
+/// The angle in (-pi, pi].
 double wrapped(double angle_rad) {
   const double rest = std::remainder(angle_rad, 2 * pi);
   return rest > -pi ? rest : pi;

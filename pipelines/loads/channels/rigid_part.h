@@ -11,7 +11,7 @@ namespace pipelines {
 class RigidPart {
 public:
   /// @param nodes  outlives this object
-  /// @param volume_m3  of each node
+  /// @param volume_m3  volume of each node
   RigidPart(const fem::Nodes& nodes, std::vector<double> volume_m3);
 
   /// Subtracts the rigid-mode body force with the same resultants.

@@ -132,7 +132,7 @@ private:
   /// A piece of the body along z, on an axis of its own.
   struct Slice {
     double mass_kg, polar_inertia_kg_m2;  ///< the latter about its own axis
-    double x_m, y_m, z_m;                 ///< of its centre
+    double x_m, y_m, z_m;                 ///< centre of the slice
   };
 
   void add_slice(Resultant6& sum, fem::BodyForce::Field field, const Slice& slice) const {

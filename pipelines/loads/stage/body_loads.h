@@ -16,7 +16,7 @@ namespace pipelines {
 LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed);
 
 /// The loads of one body of a scene, as its kind takes them.
-/// @param history  of the load stage with the machine of `masses`
+/// @param history  loads of the load stage with the machine of `masses`
 BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
                           const LoadedBody& loaded, const MassAgreement& masses);
 

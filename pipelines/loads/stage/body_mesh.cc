@@ -47,7 +47,7 @@ std::vector<fem::ElasticSupport> elastic_feet(const meshes::BodyMesh& mesh,
   return supports;
 }
 
-/// Where the scene has the key of a mesh control; the body's place if it leaves the key out.
+/// Place where the scene has the key of a mesh control; the body's place if it leaves the key out.
 std::string place_of(const std::string& control, const BodyScene& body) {
   const auto found = body.mesh_keys.find(mesh_key(control));
   return found == body.mesh_keys.end() ? body.origin : found->second;

@@ -16,12 +16,13 @@ struct MeshedBody {
   meshes::BodyMesh mesh;
   fem::Body body;  ///< what the model was made of
   std::shared_ptr<const fem::Model> model;
-  fem::MassProperties masses;  ///< of the whole mesh
+  fem::MassProperties masses;  ///< masses of the whole mesh
   fem::GeometryError geometry_error;
-  std::vector<RegionMass> regions;  ///< "structure" and "exciter" of a chamber; otherwise the whole body. A
-                                    ///< chamber of one piece is all structure: its exciter is an added mass
+  /// "structure" and "exciter" of a chamber; otherwise the whole body. A chamber of one piece is all
+  /// structure: its exciter is an added mass.
+  std::vector<RegionMass> regions;
 
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
   MeshedBody();
   MeshedBody(const MeshedBody&);
   MeshedBody(MeshedBody&&) noexcept;
@@ -35,7 +36,7 @@ struct MeshedBody {
 meshes::BodyMesh build_mesh(const BodyScene& body);
 
 /// Mesh, model and masses.
-/// @param springs  of the machine, for elastic feet; empty otherwise
+/// @param springs  springs of the machine, for elastic feet; empty otherwise
 /// @param coarse   the same body with fewer refinements, whose mesh is taken over; none: it is meshed
 MeshedBody mesh_body(const BodyScene& body, const std::vector<kinetics::Spring>& springs,
                      const MeshedBody* coarse = nullptr);

@@ -26,7 +26,7 @@ struct EffectTrial {
 EffectTrial try_effects(const Scene& scene, const std::vector<MeshedBody>& meshed,
                         const MassAgreement& masses);
 
-/// From ports and masses alone, without a solve.
+/// Closure from ports and masses alone, without a solve.
 Closure closure_of(const BodyLoads& loads, const std::vector<RegionMass>& regions);
 
 /// Effects of which the own loads leave a resultant on the body, above Closure::limit of all loads on it.

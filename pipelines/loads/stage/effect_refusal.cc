@@ -15,7 +15,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// "a", "b" and "c"
+/// Names in quotation marks: "a", "b" and "c".
 std::string quoted(const Names& names, const std::string& last = " and ") {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)

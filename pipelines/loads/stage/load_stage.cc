@@ -63,7 +63,8 @@ void add_passed_over(const Scene& scene, Loaded& loaded) {
   require_finite(*history);
   const bool is_fatigue_asked = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                             [](const auto& body) { return bool(body.fatigue); });
-  for (const auto& warning : history->warnings)  // of cycles between the instants: nothing else counts them
+  // Warnings of cycles between the instants: nothing else counts them.
+  for (const auto& warning : history->warnings)
     if (is_fatigue_asked && !contains(loaded.loads.warnings, warning))
       loaded.loads.warnings.push_back(warning);
   for (std::size_t i = 0; i < loaded.meshed.size(); ++i) {

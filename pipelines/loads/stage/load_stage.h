@@ -33,7 +33,7 @@ struct Loaded {
   std::vector<BearingResult> bearings;
   std::shared_ptr<const StartUp> start_up;  ///< by load_start_up, where the scene asks for a start; else null
 
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
   Loaded();
   Loaded(const Loaded&);
   Loaded(Loaded&&) noexcept;

@@ -16,7 +16,7 @@ struct MassFigure {
   double given = 0, mesh = 0;    ///< sizes of vectors
   double difference = 0;         ///< size of given - mesh
   double reference = 0;          ///< what it is a share of
-  std::string port;              ///< that carries it
+  std::string port;              ///< port that carries it
   bool from_mesh = false;        ///< the scene left it to the mesh
   double share() const;          ///< difference / reference; 0 where there is none
 };

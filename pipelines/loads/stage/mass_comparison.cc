@@ -10,8 +10,9 @@
 namespace pipelines {
 namespace {
 
-constexpr double largest_share = 0.2;        // a mesh that far off is another machine
-constexpr double rounding_of_meshes = 1e-4;  // of centres on an axis: the coarsest chamber's is 1e-6
+constexpr double largest_share = 0.2;  // a mesh that far off is another machine
+// Share by which a mesh may put a centre off its axis: the coarsest chamber's is 1e-6.
+constexpr double rounding_of_meshes = 1e-4;
 const char* const usual_remedy = "correct one of them, or leave the machine's out, so that the mesh gives it";
 
 }  // namespace

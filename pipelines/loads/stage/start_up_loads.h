@@ -24,7 +24,7 @@ BodyLoads loads_over(const Scene& scene, const BodyScene& body, const kinetics::
                      const MeshedBody& meshed, const MassAgreement& masses);
 
 /// The loads with these channels, in this order; those that it does not have are zero.
-/// @param unit_loads  of the channels, in their order
+/// @param unit_loads  unit loads of the channels, in their order
 void take_channels(BodyLoads& loads, const std::vector<Channel>& channels,
                    const std::vector<fem::UnitLoad>& unit_loads);
 

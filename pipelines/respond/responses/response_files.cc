@@ -21,7 +21,7 @@
 namespace pipelines {
 namespace {
 
-/// Of the arrangement of the file: files of another one count as missing.
+/// Version of the file's arrangement: files of another one count as missing.
 constexpr double arrangement = 5;
 
 struct Counts {
@@ -29,7 +29,7 @@ struct Counts {
   std::size_t volumes;       ///< cells whose volume group is known: all or none
   std::size_t energy_cells;  ///< cells and channels with energies: all or none
   std::size_t energy_channels;
-  std::size_t node_images;  ///< of nodes and of cells: all or none
+  std::size_t node_images;  ///< mirror images of nodes, and of cells: all or none
   std::size_t cell_images;
 };
 
@@ -54,7 +54,7 @@ double* entries(std::vector<fem::SectionResponse>& v) {
   return reinterpret_cast<double*>(v.data());
 }
 
-/// Of the orders of nodes in cells and faces.
+/// VTK's names for the orders of nodes in cells and faces.
 std::array<const char*, 2> vtk_names(const fem::CellShape& shape) {
   if (shape.is_tetrahedron()) return {"VTK_QUADRATIC_TETRA", "VTK_QUADRATIC_TRIANGLE"};
   if (shape.degree == 1) return {"VTK_HEXAHEDRON", "VTK_QUAD"};
@@ -71,8 +71,8 @@ fem::CellShape shape_of(std::size_t nodes_per_cell) {
   throw FileError("/nodes/cells: no cells have " + std::to_string(nodes_per_cell) + " nodes");
 }
 
-/// Every array of the responses with its name, its extents and its label: the one list that writer and reader
-/// share.
+/// Visits every array of the responses with its name, its extents and its label: the one list that writer and
+/// reader share.
 template <class Visit>
 void visit_arrays(fem::UnitResponses& r, const Counts& n, Visit visit) {
   using Extents = std::vector<std::size_t>;
@@ -162,7 +162,7 @@ void read_shared(const Hdf5Reader& in, const std::string& name, std::vector<doub
   }
 }
 
-/// On every rank of those that share the body.
+/// Reads on every rank of those that share the body.
 fem::UnitResponses read(const Hdf5Reader& in) {
   fem::UnitResponses r;
   r.channels = in.texts("/channels");

@@ -73,7 +73,7 @@ std::string hash_of(const fem::CoarseMesh& mesh) {
          hash_of(mesh.volume_id) + hash_of(mesh.faces) + hash_of(mesh.face_id);
 }
 
-/// Of the cells that are cut in each cycle; empty if there is none.
+/// Hash of the cells that are cut in each cycle; empty if there is none.
 std::string hash_of(const std::vector<fem::RefinementCycle>& refinements) {
   std::string text;
   for (const auto& [cells, again_at_m] : refinements) text += hash_of(cells) + hash_of(again_at_m);

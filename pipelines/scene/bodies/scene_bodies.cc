@@ -12,7 +12,7 @@ namespace {
 /// Tables of bodies, and what they are there.
 using BodyTables = std::vector<std::pair<std::string, const BodyKind*>>;
 
-/// Of all machines; a name that several kinds have once.
+/// Tables of the bodies of all machines; a name that several kinds have once.
 BodyTables all_bodies() {
   BodyTables all;
   for (const auto* kind : body_kinds())

@@ -16,10 +16,10 @@ class BodyKind;
 struct ContourRules {
   std::vector<std::string> ports;  ///< load enters at each of them: all are needed
   bool any_port = false;           ///< the user's own ports beside them
-  std::string
-      middle;  ///< z = 0 in the middle of the segment with this port or bore port; empty: at the left end
+  /// z = 0 in the middle of the segment with this port or bore port; empty: at the left end.
+  std::string middle;
   std::string eccentric_seat;  ///< takes its eccentricity from the drive; empty: no such seat
-  double eccentricity_m = 0;   ///< of the drive
+  double eccentricity_m = 0;   ///< eccentricity of the drive
 };
 
 /// Reads contour, begin and [mesh]. The contour reads like the drawing, from left to right:

@@ -212,7 +212,7 @@ FatigueScene read_rules(SceneTable& table, const KnownStrength& strength, const 
   return fatigue;
 }
 
-/// Without a table: by defaults alone, which refuse nothing.
+/// Judges fatigue without a table, by defaults alone, which refuse nothing.
 void judge_by_default(const KnownStrength& strength, bool has_run_up, BodyScene& body,
                       SceneFindings& findings) {
   static const TomlNode no_keys;

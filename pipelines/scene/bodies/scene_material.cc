@@ -26,7 +26,7 @@ const MaterialKey density_key{"density", "kg/m3", between(100, 30000)};
 const MaterialKey yield_key{"yield_strength", "Pa", between(1e6, 1e10)};
 const MaterialKey tensile_key{"tensile_strength", "Pa", between(1e7, 3e9)};
 
-/// By which size of the body the library's strengths are chosen.
+/// Size of the body by which the library's strengths are chosen.
 struct GoverningSize {
   double size_m = 0;  ///< 0: not known
   std::string text;   ///< "largest section 60 mm"
@@ -101,7 +101,7 @@ private:
     chosen_by_ = size.size_m > 0 ? size.text : "the weakest of all sizes: thickness is not given";
   }
 
-  /// Of a name that the library does not have, all keys are needed.
+  /// Refuses a material's name that the library does not have, unless all keys are given.
   void refuse_if_incomplete() {
     std::vector<std::string> missing;
     for (const auto* key : {&modulus_key, &poisson_key, &density_key, &yield_key}) {
@@ -121,7 +121,7 @@ private:
                             "; write one of its names, or add " + listed(missing));
   }
 
-  /// Such a key is reported by its wrong name.
+  /// Whether the key is written with a wrong name, by which it is reported.
   static bool is_misspelt(const std::string& name, const std::vector<std::string>& written) {
     return std::any_of(written.begin(), written.end(), [&](const auto& other) {
       return other != "thickness" && other != "tensile_strength" && nearest_name(other, {name}) == name;

@@ -11,7 +11,7 @@ namespace pipelines {
 struct KnownStrength {
   double tensile_Pa = 0;  ///< R_m; 0: not known; NaN: could not be read, with an error in the findings
   MaterialGroup group = MaterialGroup::steel;
-  std::string source;    ///< of R_m: "C45+N, above 16 to 100 mm, EN 10083-2"; empty: the scene
+  std::string source;    ///< source of R_m: "C45+N, above 16 to 100 mm, EN 10083-2"; empty: the scene
   std::string why_none;  ///< no R_m is known, and what adds it; empty: it is known
 };
 

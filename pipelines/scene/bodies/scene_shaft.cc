@@ -152,7 +152,8 @@ void check_names(Contour& contour, SceneTable& body, const ContourRules& rules) 
                                "; write port = \"" + missing.front() + "\" in place of that segment's name");
 }
 
-/// Of the segment's axis across. std::polar takes no negative lengths, nor those that could not be read.
+/// Offset of the segment's axis across. std::polar takes no negative lengths, nor those that could not be
+/// read.
 std::complex<double> offset_of(const meshes::ShaftSegment& segment) {
   return segment.eccentricity_m * std::complex<double>(std::cos(segment.eccentricity_angle_rad),
                                                        std::sin(segment.eccentricity_angle_rad));

@@ -69,7 +69,8 @@ kinetics::TrainInertia read_inertia(SceneTable& table, std::vector<std::string>&
   return inertia;
 }
 
-/// Of a belt or gear; behind several of them speeds and reduced inertias go with its powers.
+/// Reads the ratio of a belt or gear, which has limits: behind several of them speeds and reduced inertias go
+/// with its powers.
 double read_ratio(SceneTable& table) {
   const double ratio = table.ratio("ratio");
   if (std::abs(ratio) > most_ratio || (ratio != 0 && std::abs(ratio) < 1 / most_ratio))

@@ -15,7 +15,7 @@ const kinetics::LoadTable& table_in(const Machine& machine) {
   return std::get<kinetics::LoadTable>(machine);
 }
 
-/// Of the harmonics of these effects; 0: there are none.
+/// Highest order of the harmonics of these effects; 0: there are none.
 double highest_order(const kinetics::LoadTable& table, const std::vector<std::string>& effects) {
   double highest = 0;
   for (const auto& load : table.loads)

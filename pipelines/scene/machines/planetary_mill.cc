@@ -52,7 +52,7 @@ public:
     if (scene.body("drum") && scene.body("axle"))
       bodies.back().refuse_missing("", "a drum with trunnions needs no stub axle: analyse one of the two");
   }
-  /// In the carrier's frame every turn; seen from the drum after a few.
+  /// Loads repeat in the carrier's frame every turn; seen from the drum after a few.
   Period period(const Scene& scene, int most_turns, bool is_sound) const override {
     if (!scene.drum_axes || !is_sound) return {};
     return {true, kinetics::period_in_turns(mill_in(scene), most_turns).value_or(0)};
@@ -86,7 +86,7 @@ public:
   std::vector<kinetics::EffectInfo> effects(const Machine& machine) const override {
     return kinetics::planetary_mill_effects(std::get<kinetics::PlanetaryMill>(machine).convention);
   }
-  /// With what a trunnion that turns with the drum feels: constant loads of the carrier's frame reverse
+  /// Loads with what a trunnion that turns with the drum feels: constant loads of the carrier's frame reverse
   /// fully.
   kinetics::LoadHistory loads(const Scene& scene, const Machine& machine) const override {
     auto loads = MachineKind::loads(scene, machine);

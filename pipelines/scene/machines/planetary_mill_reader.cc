@@ -10,7 +10,7 @@ namespace pipelines {
 namespace {
 
 constexpr double shortest_m = 1e-4, longest_m = 100;
-constexpr double least_ratio = 1e-3;  // of lengths that are built beside each other
+constexpr double least_ratio = 1e-3;  // least ratio of lengths that are built beside each other
 
 using kinetics::PlanetaryConvention;
 using kinetics::PlanetaryMill;

@@ -34,7 +34,7 @@ double read_mass(SceneTable& table, const std::vector<std::string>& users,
   return mass_kg;
 }
 
-/// Exactly one of two keys; the other is not touched.
+/// Which one of two keys is to be read: exactly one is there; the other is not touched.
 /// @return true if the first is to be read, false for the second, empty (reported) for none or both
 std::optional<bool> one_of(SceneTable& table, const std::string& first, const std::string& second,
                            const std::string& meanings) {
@@ -57,7 +57,7 @@ void read_drive(SceneTable drive, kinetics::VibratoryMill& mill) {
   drive.finish();
 }
 
-/// After the drive: the largest power that a lag can carry depends on it.
+/// Reads the charge's lag, after the drive: the largest power that a lag can carry depends on it.
 void read_charge_lag(SceneTable& charge, bool is_on, kinetics::VibratoryMill& mill) {
   const std::string meanings =
       "grinding_power, which the charge takes up on average, or loss_angle, by which its translation lags "

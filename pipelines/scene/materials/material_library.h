@@ -33,7 +33,7 @@ struct StrengthRange {
 struct LibraryMaterial {
   std::string name;                  ///< "S355J2", "C45+N"
   std::vector<std::string> aliases;  ///< other names of the same row: "S355", "1.0577"
-  std::string standard;              ///< of the strengths: "EN 10025-2"
+  std::string standard;              ///< standard of the strengths: "EN 10025-2"
   double youngs_modulus_Pa = 0, poisson_ratio = 0, density_kg_m3 = 0;
   MaterialGroup group = MaterialGroup::steel;
   std::vector<StrengthRange> ranges;  ///< by rising thickness, the first from 0 on
@@ -42,7 +42,7 @@ struct LibraryMaterial {
 /// All materials, by kind.
 const std::vector<LibraryMaterial>& material_library();
 
-/// By name or alias, without regard to case and spaces; null: there is none.
+/// The material of a name or alias, without regard to case and spaces; null: there is none.
 const LibraryMaterial* find_material(const std::string& name);
 
 /// Names near to one that is not in the library, at most three: the nearest by letters, and those that it

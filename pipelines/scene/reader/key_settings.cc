@@ -45,7 +45,7 @@ public:
     split();
   }
 
-  /// @param shown_key  of the value, for errors
+  /// @param shown_key  key of the value, for errors
   Setting(std::string key, TomlNode value, std::string shown_key, const std::filesystem::path& file)
       : file_(file.string()),
         key_(std::move(key)),
@@ -210,7 +210,7 @@ private:
     return std::isalpha(static_cast<unsigned char>(value_[behind])) != 0;
   }
 
-  /// None where the value is no TOML.
+  /// The value as TOML; none where it is no TOML.
   std::optional<TomlNode> toml_value() const {
     if (is_number_with_unit()) return std::nullopt;
     try {
@@ -240,7 +240,7 @@ private:
   }
 
   std::string file_, key_, shown_key_, value_;
-  std::optional<TomlNode> node_;  ///< of the scene; none: value_ is the command line's
+  std::optional<TomlNode> node_;  ///< value from the scene; none: value_ is the command line's
   std::vector<Part> parts_;
 };
 
@@ -256,7 +256,7 @@ void collect(const TomlNode& table, const std::string& prefix, const std::string
   }
 }
 
-/// Of one array the last item is removed first: numbers are those of the file.
+/// Applies all settings. From one array the last item is removed first: numbers are those of the file.
 /// @return what went with bodies that were removed
 std::vector<std::string> apply_all(const std::vector<Setting>& settings, TomlNode& root) {
   std::set<std::string> keys;

@@ -9,9 +9,9 @@
 
 namespace pipelines {
 
-/// Each setting is "KEY=VALUE". A key is dotted, items of arrays counted from 1, as messages name it:
-/// "machine.springs[2].stiffness". A value is TOML, or else a text: machine.drive.speed=1500 rpm. Tables on
-/// the way are added where they are missing; whether the scene may have the key is for its reader to say.
+/// Sets keys: each setting is "KEY=VALUE". A key is dotted, items of arrays counted from 1, as messages name
+/// it: "machine.springs[2].stiffness". A value is TOML, or else a text: machine.drive.speed=1500 rpm. Tables
+/// on the way are added where they are missing; whether the scene may have the key is for its reader to say.
 /// What is set has no place in the file: 0:0.
 ///
 /// The word removed, without quotes, takes the key or the item away, after all that is set:
@@ -28,7 +28,7 @@ std::vector<std::string> set_keys(TomlNode& root, const std::vector<std::string>
 /// lead through tables (set.machine.drive.speed) or be quoted as for set_keys
 /// ("machine.springs[2].stiffness"). Values keep their place in the file. The texts "removed", and "on" or
 /// "off" of an effect, mean what they mean there.
-/// @param key  of the table, for errors: "duty[2].set"
+/// @param key  key of the table, for errors: "duty[2].set"
 /// @throws SceneError as set_keys, at the value's place
 void set_entries(TomlNode& root, const TomlNode& table, const std::string& key,
                  const std::filesystem::path& file);

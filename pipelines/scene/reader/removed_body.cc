@@ -101,7 +101,7 @@ std::vector<std::string> drop_effects(TomlNode& value, const std::vector<std::st
   return gone;
 }
 
-/// Of the keys that a block of [[duty]] sets.
+/// Removes effects from the keys that a block of [[duty]] sets, and returns what is gone.
 std::vector<std::string> drop_effects_of_block(TomlNode& block, const std::vector<std::string>& effects) {
   std::vector<std::string> gone;
   auto* const set = own_value(block, "set");

@@ -34,7 +34,7 @@ std::optional<DutyStart> read_start(SceneTable& table, const Scene& scene) {
 }
 
 /// Refuses every value in a table that no block may change.
-/// @param key  of the table: "duty[2].set.shaft"
+/// @param key  key of the table: "duty[2].set.shaft"
 void refuse_all_values(const TomlNode& node, const std::string& key, SceneFindings& findings) {
   if (node.kind == TomlNode::Kind::table && node.entries.size() > 0) {
     for (const auto& entry : node.entries) refuse_all_values(entry.value, key + "." + entry.key, findings);

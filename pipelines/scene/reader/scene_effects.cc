@@ -37,7 +37,7 @@ std::vector<std::string> offered_effects(const EffectRules& rules) {
   return names_without(known, with_dependents(rules.table, known, off));
 }
 
-/// "all" or "auto".
+/// Reads `effects` where it is a word: "all" or "auto".
 void read_word(SceneTable& root, const EffectRules& rules, Scene& scene) {
   const std::string word = root.text("effects");
   if (word != "all" && word != "auto") {

@@ -23,7 +23,7 @@ struct EffectRules {
   std::vector<std::string> lacking{};
 };
 
-/// Each name once.
+/// Names of the effects, each once.
 std::vector<std::string> names_of(const std::vector<kinetics::EffectInfo>& table);
 bool has_effect(const std::vector<kinetics::EffectInfo>& table, const std::string& name);
 

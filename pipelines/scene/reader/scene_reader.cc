@@ -90,7 +90,7 @@ TomlNode read_scene_tree(const std::filesystem::path& file) {
 
 namespace {
 
-/// "vibratory_mill", "planetary_mill" ...
+/// Names of all machine types: "vibratory_mill", "planetary_mill" ...
 std::string machine_types() {
   std::string types;
   for (const auto* kind : machine_kinds()) types += (types.empty() ? "\"" : ", \"") + kind->type() + "\"";
@@ -160,7 +160,7 @@ Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::ve
   scene.bearings = read_bearings(root);
   scene.accuracy = read_requested_accuracy(root);
   scene.method = read_method(root, scene);
-  root.know("sweep");  // for the command of that name (sweep/sweep_request.h)
+  root.know("sweep");  // for the command of that name (study/variations/sweep_request.h)
   scene.zones = read_zones(root.table_or_empty("zones"));
   read_results(root.table_or_empty("results"), scene);
   if (findings.errors.empty())

@@ -45,7 +45,7 @@ ZoneRule read_zones(SceneTable zones) {
 
 namespace {
 
-/// Of a bearing: all three keys, or none.
+/// Lubrication of a bearing: all three keys, or none.
 std::optional<kinetics::Lubrication> read_lubrication(SceneTable& table) {
   const std::array<const char*, 3> keys = {"viscosity_ratio", "contamination_factor", "fatigue_load_limit"};
   for (const char* key : keys) table.know(key);

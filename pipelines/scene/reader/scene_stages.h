@@ -20,16 +20,16 @@ RequestedAccuracy read_requested_accuracy(SceneTable& root);
 /// @param scene  with its bodies read: a body without that model is refused
 Method read_method(SceneTable& root, const Scene& scene);
 
-/// [zones]
+/// Reads [zones].
 ZoneRule read_zones(SceneTable zones);
 
-/// [[bearings]]
+/// Reads [[bearings]].
 std::vector<BearingScene> read_bearings(SceneTable& root);
 
-/// [limits]
+/// Reads [limits].
 LimitsScene read_limits(SceneTable limits);
 
-/// [results]
+/// Reads [results].
 void read_results(SceneTable results, Scene& scene);
 
 /// What the stages themselves refuse (resonances, springs that cannot carry the weights, shafts that cannot

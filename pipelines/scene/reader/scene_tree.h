@@ -26,12 +26,13 @@ struct VersionReading {
   /// The caller runs the load stage at once and, if that or a bearing's load is refused, reads again without
   /// this: the reader does not compute loads of its own.
   bool loads_follow = false;
-  /// Of an operating block that leaves the sampling to the scene: as many instants as its own orders ask for.
+  /// Whether an operating block that leaves the sampling to the scene takes as many instants as its own
+  /// orders ask for.
   bool takes_instants_of_orders = false;
 };
 
-/// As read_scene of the file.
-/// @param tree  of read_scene_tree; a copy takes the settings
+/// The scene of a file whose tree is read, as read_scene of the file gives it.
+/// @param tree  from read_scene_tree; a copy takes the settings
 /// @throws as read_scene
 Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::vector<std::string>& settings,
                  const VersionReading& version = {});

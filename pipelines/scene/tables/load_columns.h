@@ -41,7 +41,7 @@ LoadFileKeys read_load_file_keys(SceneTable& entry);
 std::vector<ChosenColumn> columns_by_scene(SceneTable& entry, LoadFileKeys& keys, const OpenTable& table,
                                            SceneFindings& findings);
 
-/// All columns, each under its own title.
+/// Chooses all columns, each under its own title.
 std::vector<ChosenColumn> columns_by_title(const OpenTable& table);
 
 }  // namespace pipelines

@@ -248,8 +248,8 @@ private:
   ArrayXd angle_rad_;
   double speed_rad_s_ = 0;
   bool is_ascending_ = false;
-  int n_averaged_ = 0;  ///< turns; 0: the samples stay as they are
-  double scatter_ = 0;  ///< of the turns about their mean, share of the largest sample
+  int n_averaged_ = 0;  ///< turns that are averaged; 0: the samples stay as they are
+  double scatter_ = 0;  ///< scatter of the turns about their mean, as a share of the largest sample
 };
 
 }  // namespace

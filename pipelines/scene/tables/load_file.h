@@ -17,8 +17,8 @@ namespace pipelines {
 ///   they are"                                    of a file of several turns
 /// Without `columns` the first column is "time" or "angle", every other one "<port>.<component>".
 /// Files with `turns` "as they are" raise loads.turns.
-/// @param folder        of the scene: where files are looked for
-/// @param window_turns  of the scene's sampling; 0: it leaves them to the machine
+/// @param folder        folder of the scene: where files are looked for
+/// @param window_turns  turns of the scene's sampling; 0: it leaves them to the machine
 /// @return whether the loads are a mean turn, which repeats in a longer window
 bool read_load_file(SceneTable& entry, const std::filesystem::path& folder, int window_turns,
                     SceneFindings& findings, kinetics::LoadTable& loads);

@@ -14,7 +14,7 @@ struct LoadName {
   std::string unit;  ///< SI unit of the component
 };
 
-/// None if the text names no load: not_a_load says why.
+/// The load that a text names; none if it names no load: not_a_load says why.
 std::optional<LoadName> parse_load(const std::string& name);
 std::string not_a_load(const std::string& name);
 

@@ -9,11 +9,11 @@ namespace pipelines {
 double turns_between_ends(const Eigen::ArrayXd& angle_rad);
 
 /// Whole turns that samples cover: the step from the last one to the first of the next turn may be missing.
-/// @param angle_rad  of the drive, strictly ascending, at least two
+/// @param angle_rad  angle of the drive, strictly ascending, at least two values
 int whole_turns(const Eigen::ArrayXd& angle_rad);
 
 struct MeanTurn {
-  Eigen::ArrayXd angle_rad;  ///< of the samples of the first turn
+  Eigen::ArrayXd angle_rad;  ///< angles of the samples of the first turn
   Eigen::ArrayXd values;     ///< mean over the turns
   double scatter = 0;        ///< largest difference of a turn from the mean
 };

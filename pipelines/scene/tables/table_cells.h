@@ -11,7 +11,7 @@ constexpr char runs_of_blanks = ' ';  ///< as a delimiter
 
 struct Cell {
   std::string text;  ///< without quotes and blanks around it
-  int column = 1;    ///< of its first byte, 1-based
+  int column = 1;    ///< column of its first byte, 1-based
 };
 
 /// A quoted cell may hold the delimiter, and a quote as two quotes.

@@ -150,7 +150,8 @@ private:
            "; check that the file is whole";
   }
 
-  /// Of a first column whose other steps are equal but for rounding.
+  /// What is odd about the last step of a first column whose other steps are equal but for rounding; empty:
+  /// nothing.
   std::string odd_last_step() const {
     constexpr double rounding = 0.02, odd = 0.05;
     const auto& at = table_.columns.front().values;
@@ -172,7 +173,7 @@ private:
   /// Digits behind the point, of the rows of a column.
   struct Decimals {
     int others = -1, last = -1;  ///< -1: no row yet
-    bool are_alike = true;       ///< those of the others
+    bool are_alike = true;       ///< whether the digits of the other rows are alike
 
     void take(const std::string& cell) {
       const auto point = cell.find_first_of(".,");
@@ -186,8 +187,8 @@ private:
   /// One kind of fault in one column, at the first of its places.
   struct Fault {
     SceneFinding first;
-    int kind = 0;            ///< of the cell; -1: of the row; -2: counts alone
-    std::size_t column = 0;  ///< of the chosen ones
+    int kind = 0;            ///< the cell's kind; -1: the fault is the row's; -2: counts alone
+    std::size_t column = 0;  ///< index among the chosen columns
     std::size_t n = 1;
     int last_line = 0;
   };
@@ -329,7 +330,7 @@ private:
   const std::vector<std::size_t>& chosen_;
   const Titles titles_;
   TableFile table_;
-  std::vector<Decimals> decimals_;  ///< of each column
+  std::vector<Decimals> decimals_;  ///< digits behind the point in each column
   bool has_last_end_ = true;        ///< the last line ends with a line feed
   bool has_decimal_comma_ = false;
   int n_passed_over_ = 0;  ///< lines between titles and rows that are neither

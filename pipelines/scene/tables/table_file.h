@@ -30,7 +30,7 @@ struct TableFile {
   std::filesystem::path file;
   int title_line = 1;
   std::vector<TableColumn> columns;
-  std::vector<int> lines;  ///< of each row, for messages
+  std::vector<int> lines;  ///< line of each row, for messages
   std::size_t n_rows() const { return lines.size(); }
   /// A sentence about a file that may be cut off: its last line has no end, or fewer digits than all others
   /// have alike, or its first column makes another step there after even ones. Empty: nothing speaks for it.
@@ -67,7 +67,7 @@ enum class Titles { name_columns, are_chosen };
 TableFile read_columns(const OpenTable& table, const std::vector<std::size_t>& chosen,
                        Titles titles = Titles::name_columns);
 
-/// All columns of a file. @throws SceneError as both
+/// Reads all columns of a file.
 TableFile read_table_file(const std::filesystem::path& file);
 
 }  // namespace pipelines

@@ -60,7 +60,7 @@ Stretch longest_stretch(const std::vector<TableLine>& lines, char delimiter) {
   return best;
 }
 
-/// Half of what stands in the cells are units.
+/// Whether half of what stands in the cells are units.
 bool are_units(const std::vector<Cell>& cells) {
   std::size_t n_filled = 0, n_units = 0;
   for (const auto& cell : cells) {
@@ -134,8 +134,7 @@ std::optional<TableLayout> layout_with(const std::vector<TableLine>& lines, char
   const auto is_row = [&](const TableLine& line) {
     return line.number > last_title && count_numbers(cells_of(line.text, delimiter)) > 0;
   };
-  layout.first_row =
-      std::find_if(lines.begin(), lines.end(), is_row)->number;  // of the stretch at the latest
+  layout.first_row = std::find_if(lines.begin(), lines.end(), is_row)->number;  // the stretch of rows has one
   return layout;
 }
 

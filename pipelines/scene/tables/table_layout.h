@@ -28,7 +28,7 @@ public:
   explicit TableLines(std::string_view text);
   /// False behind the last line.
   bool next(TableLine& line);
-  bool has_last_end() const { return has_last_end_; }  ///< of those read: each has its end
+  bool has_last_end() const { return has_last_end_; }  ///< each line read so far has its end
 
 private:
   std::string_view rest_;

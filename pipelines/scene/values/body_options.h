@@ -29,7 +29,7 @@ struct VibratoryShaftOptions {
   std::vector<double> debalance_shares = {0.5, 0.5};
 };
 
-/// Where the couple of an attitude that is held goes (effect `pitch_guide`, with `pitch` off).
+/// What takes the couple of an attitude that is held (effect `pitch_guide`, with `pitch` off).
 enum class PitchGuide {
   body,  ///< a body load without resultant, about the mass centre
   feet   ///< opposite vertical forces on the first two feet
@@ -46,10 +46,10 @@ struct DrumOptions {};
 
 /// One of the two stubs that carry the drum's bearings, fixed to the carrier.
 struct StubAxleOptions {
-  double bearing_span_m = 0;  ///< between the drum's two bearings
-  double pulley_plane_m = 0;  ///< of the belt, from the middle between the bearings
-  double pulley_mass_kg = 0;  ///< of m_A, in the pulley's plane
-  bool pulley_side = true;    ///< which of the two stubs
+  double bearing_span_m = 0;  ///< distance between the drum's two bearings
+  double pulley_plane_m = 0;  ///< plane of the belt, from the middle between the bearings
+  double pulley_mass_kg = 0;  ///< the part of the drum's mass m_A that lies in the pulley's plane
+  bool pulley_side = true;    ///< whether it is the stub on the pulley's side
 };
 
 /// A shaft of a drive train that carries one of its inertias.
@@ -58,7 +58,7 @@ struct TrainShaftOptions {
     std::string port, role;  ///< role of the resultant, "<element>_on_<inertia>"
   };
   std::string inertia;          ///< the inertia of the train that the shaft is
-  std::vector<Torque> torques;  ///< of all elements on that inertia
+  std::vector<Torque> torques;  ///< torques of all elements on that inertia
   std::array<std::string, 2> bearings{"bearing_1", "bearing_2"};
   std::string axial_bearing;  ///< takes axial forces; empty: there are none
   std::vector<GivenForce> forces;

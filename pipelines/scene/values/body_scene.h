@@ -50,21 +50,21 @@ struct BodyScene {
   std::string name;    ///< "shaft", "chamber", "drum", "axle", "part": table and directory
   std::string origin;  ///< "file:line:column: table", named by errors that meshing brings to light
   std::map<std::string, std::string> mesh_keys;  ///< "file:line:column: key = value" by key of [<name>.mesh]
-  BodyOptions options;                           ///< of its kind (body_kind.h)
+  BodyOptions options;                           ///< options of the body's kind (body_kind.h)
   BodyShape shape;
   fem::Material material;
   std::string material_name;
   std::string strength_source;  ///< "S355J2, up to 16 mm, EN 10025-2"; empty: the scene gives the strengths
   double yield_strength_Pa = 0;
-  int pressure_harmonics = 4;                      ///< where `pressures` has no entry
+  int pressure_harmonics = 4;                      ///< highest harmonic where `pressures` has no entry
   std::map<std::string, PressureModel> pressures;  ///< by port
   /// Ports whose pressure a search has found to be felt where stress leads: harmonics that their patterns
   /// have not are solved too (PressureModel::solves_missing).
   std::set<std::string> felt_seats;
   std::vector<AddedMass> added_masses;
   fem::Solver solver = fem::Solver::automatic;
-  int degree =
-      2;  ///< of the polynomials in a cell (fem::Body); 2 in every scene, accuracy studies take 1 and 3 too
+  /// Degree of the polynomials in a cell (fem::Body); 2 in every scene, accuracy studies take 1 and 3 too.
+  int degree = 2;
   /// Cells cut into eight after meshing, cycle after cycle (fem::Body): a search chooses them.
   std::vector<fem::RefinementCycle> refinements;
   std::optional<FatigueScene> fatigue;  ///< none: fatigue_off, or fatigue_missing says why
@@ -77,7 +77,7 @@ struct BodyScene {
   /// Places where a search found that stress grows without bound: kept out of the peak like sharp edges.
   std::vector<meshes::SharpEdge> singular;
 
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
   BodyScene();
   BodyScene(const BodyScene&);
   BodyScene(BodyScene&&) noexcept;

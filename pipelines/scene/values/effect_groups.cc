@@ -7,7 +7,8 @@
 namespace pipelines {
 namespace {
 
-/// In the order of the output. Names are those of the tables of kinetics and of own_effects of the bodies.
+/// Groups in the order of the output. Names are those of the tables of kinetics and of own_effects of the
+/// bodies.
 const std::vector<EffectGroup>& known_groups() {
   static const std::vector<EffectGroup> groups = {
       {"weights",

@@ -18,9 +18,9 @@ struct WeldToeScene {
 };
 
 struct FatigueScene {
-  FatigueMaterial material;            ///< its tensile strength has the size factor in it
-  std::string strength_source;         ///< "C45+N, above 16 to 100 mm, EN 10083-2": a strength of the part at
-                                       ///< its size; empty: the scene gives it
+  FatigueMaterial material;  ///< its tensile strength has the size factor in it
+  /// "C45+N, above 16 to 100 mm, EN 10083-2": a strength of the part at its size; empty: the scene gives it.
+  std::string strength_source;
   double size_factor = 1;              ///< K_d: tensile strength of the part over that of the scene
   double roughness_m = 0;              ///< R_z
   double treatment = 1;                ///< K_V: shot peening, nitriding ... raise what the surface endures
@@ -29,8 +29,8 @@ struct FatigueScene {
   double reliability = 0.975;          ///< survival of parts at the design limit
   std::optional<double> endurance_Pa;  ///< measured sigma_W instead of the group's share of R_m
   std::optional<double> wanted_life_s;
-  WeldToeScene toes;                                 ///< of all weld toes...
-  std::map<std::string, WeldToeScene> toes_by_name;  ///< ...but these
+  WeldToeScene toes;                                 ///< settings of all weld toes
+  std::map<std::string, WeldToeScene> toes_by_name;  ///< settings of single toes, in place of those
 };
 
 }  // namespace pipelines

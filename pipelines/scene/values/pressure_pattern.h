@@ -44,11 +44,11 @@ HalfAngles half_angles_around(const PressurePattern& pattern);
 /// What a port's pressure looks like.
 struct PressureModel {
   PressurePattern pattern;
-  int highest_harmonic = 4;                ///< of the pattern, as loads; 0 to 64
+  int highest_harmonic = 4;                ///< highest harmonic of the pattern that is a load; 0 to 64
   std::vector<double> axial_profile{1.0};  ///< as fem::LoadSurface::axial_profile
   HalfAngles half_angles = load_zones;     ///< what the error for load patches looks at
-  /// Diametral, of a solid seat in a stiff hub: pattern and half_angles follow from it and the largest force
-  /// (contact_arc.h).
+  /// Diametral clearance of a solid seat in a stiff hub: pattern and half_angles follow from it and the
+  /// largest force (contact_arc.h).
   std::optional<double> clearance_m;
   bool is_charge = false;  ///< a mill's charge on its wall, no contact of a ring
   /// Harmonics 2, 3 ... that the pattern has not, or that stand above highest_harmonic, are solved too, with
@@ -70,8 +70,8 @@ double solved_coefficient(const PressureModel& model, int n);
 /// are.
 int highest_solved(const PressureModel& model);
 
-/// Where the resultant of such a profile acts, in half lengths of the seat from its middle; 0 of one that is
-/// symmetrical to rounding.
+/// Point where the resultant of such a profile acts, in half lengths of the seat from its middle; 0 of one
+/// that is symmetrical to rounding.
 double middle_of(const std::vector<double>& axial_profile);
 
 /// p_n / p_1 of the pattern's harmonics p(t) = sum of p_n cos(n t).

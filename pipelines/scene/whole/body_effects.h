@@ -13,7 +13,7 @@ namespace pipelines {
 
 struct Scene;
 
-/// All that a body adds.
+/// Effects that a body adds, its own and those of its options.
 std::vector<kinetics::EffectInfo> body_effect_table(const BodyScene& body);
 
 /// Every effect that a scene's machine and its bodies know, each with what it needs there. A machine's effect

@@ -1,6 +1,6 @@
 /// What is particular to one kind of body, a vibratory mill's shaft or a planetary mill's drum: how the scene
 /// describes it, which loads enter where, whose masses it shares, what carries it. The rooms ask the kind and
-/// compare none; every kind is one file in pipelines/bodies, listed by loads/bodies/table.cc.
+/// compare none; every kind is one file in pipelines/loads/bodies, listed by loads/bodies/table.cc.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct MassAgreement;
 struct MeshedBody;
 struct RegionMass;
 
-/// Where the torque of an element of the machine enters a body, and the role of that torque in load
+/// Port where the torque of an element of the machine enters a body, and the role of that torque in load
 /// histories.
 struct ElementPort {
   std::string element, port, role;
@@ -45,27 +45,27 @@ public:
   /// Ports that the loads need and, for a contour, where it begins.
   /// @param body  with its options read
   virtual ContourRules contour_rules(const Scene& scene, const BodyScene& body) const = 0;
-  /// Of a body that is no file; a contour unless overridden.
+  /// Shape of a body that is no file; a contour unless overridden.
   virtual BodyShape read_shape(SceneTable& table, const Scene& scene, const BodyScene& body,
                                SceneFindings& findings) const;
   /// Refuses ports of the options that the shape does not have; the contour asks for those that are loaded.
   virtual void check_ports(SceneTable& table, const BodyScene& body) const;
   /// Names that a bearing of the scene may give as its load, beside those of the load stage.
   virtual std::vector<std::string> bearing_loads(const BodyScene& body) const = 0;
-  /// Of the body's ports against what they run in; empty where that stands still beside them.
+  /// Speed of the body's ports against what they run in; empty where that stands still beside them.
   virtual std::optional<double> seat_speed_rad_s(const Scene& scene, const BodyScene& body) const;
 
   // ---- Effects ----
 
   /// What every body of the kind adds, under fixed names: its own mass, whose size comes from its mesh.
   virtual std::vector<kinetics::EffectInfo> own_effects() const;
-  /// All that the body adds.
+  /// Effects that the body adds, its own and those of its options.
   virtual std::vector<kinetics::EffectInfo> effects(const BodyScene& body) const;
   /// Forces beside the machine's loads, among the effects by their names.
   virtual std::vector<GivenForce> given_forces(const BodyScene& body) const;
   /// Tells effects of the machine which of the body's they need.
   /// @param scene  with its machine read
-  /// @param table  of the machine's effects, and of the bodies' before this one
+  /// @param table  table of the machine's effects, and of the bodies' before this one
   virtual void add_needs(const Scene& scene, std::vector<kinetics::EffectInfo>& table) const;
 
   // ---- Masses ----
@@ -75,7 +75,7 @@ public:
   virtual bool shares_masses() const;
   /// `difference_port` where the scene names none; without one the key is not read.
   virtual std::optional<std::string> usual_difference_port(const BodyScene& body) const;
-  /// Which part of the machine an added mass counts to, if there are several.
+  /// Reads which part of the machine an added mass counts to, if there are several.
   virtual void read_region(SceneTable& entry, AddedMass& added) const;
   /// Takes open masses from the mesh; differences to given ones become attached masses.
   /// @throws StageRefused if a difference exceeds 20 %
@@ -86,8 +86,8 @@ public:
 
   // ---- Loads ----
 
-  /// From the load stage's resultants to the body's channels.
-  /// @param history  of the load stage with the machine of `masses`
+  /// Turns the load stage's resultants into the body's channels.
+  /// @param history  loads of the load stage with the machine of `masses`
   virtual BodyLoads distribute(const Scene& scene, const BodyScene& body,
                                const kinetics::LoadHistory& history, const LoadedBody& loaded,
                                const MassAgreement& masses) const = 0;
@@ -121,7 +121,7 @@ public:
                                        const kinetics::LoadHistory& loads) const;
 };
 
-/// In the order of BodyOptions.
+/// Kinds in the order of BodyOptions.
 const std::vector<const BodyKind*>& body_kinds();
 
 const BodyKind& kind_of(const BodyScene& body);

@@ -14,7 +14,7 @@
 
 namespace pipelines {
 
-/// In the order of the table of kinds (scene/machines/table.cc).
+/// A machine; the alternatives stand in the order of the table of kinds (scene/machines/table.cc).
 using Machine =
     std::variant<kinetics::VibratoryMill, kinetics::PlanetaryMill, kinetics::DriveTrain, kinetics::LoadTable>;
 

@@ -1,6 +1,6 @@
 /// What is particular to one machine beside its kinetics: how its scene is read and rehearsed, when its loads
 /// repeat, what a report shows of it. The rooms ask the kind and compare no machines; every kind is one file
-/// in pipelines/machines, listed by scene/machines/table.cc.
+/// in pipelines/scene/machines, listed by scene/machines/table.cc.
 #pragma once
 
 #include <optional>
@@ -63,17 +63,17 @@ public:
   virtual int instants_of_orders(const Machine& machine) const;
   /// The effects that the machine knows under its convention, in the order of summation.
   virtual std::vector<kinetics::EffectInfo> effects(const Machine& machine) const = 0;
-  /// Over the scene's period, or its run-up.
+  /// Loads over the scene's period, or its run-up.
   /// @param machine  the scene's, with the masses that it leaves to a mesh
   virtual kinetics::LoadHistory loads(const Scene& scene, const Machine& machine) const;
-  /// Over one start from rest to the scene's running; empty: the machine, or the scene, has no
+  /// Loads over one start from rest to the scene's running; empty: the machine, or the scene, has no
   /// transient there.
   /// @param machine  the scene's, with the masses that it leaves to a mesh
   /// @throws kinetics::MachineRefused
   virtual std::optional<kinetics::LoadHistory> start_up(const Scene& scene, const Machine& machine) const;
   /// Why a scene cannot say how long a start takes; empty: it can, and start_up follows Scene::run_up.
   virtual std::string why_no_run_up_of_given_duration() const;
-  /// Of the drive in steady running [rad/s]; 0 where it is not known.
+  /// Speed of the drive in steady running [rad/s]; 0 where it is not known.
   virtual double drive_speed_rad_s(const Machine& machine) const;
   /// Whether the user brings the loads as samples: they need all their turns, none is too small to count, and
   /// quantities beside the resultants are loads too.
@@ -90,16 +90,16 @@ public:
   virtual std::vector<kinetics::CourseFigures> figures_over_the_course(
       const Scene& scene, const Machine& machine, const kinetics::TimeGrid& grid,
       const kinetics::LoadHistory& at_instants) const;
-  /// That a body may stand on.
+  /// Springs that a body may stand on.
   virtual std::vector<kinetics::Spring> springs(const Machine& machine) const;
 
   // ---- Reports ----
 
   /// Whether a reader of a terminal wants that quantity of the load stage first.
   virtual bool is_headline(const std::string& quantity) const = 0;
-  /// Whether it has a report on torsion (report/torsion_report.h).
+  /// Whether it has a report on torsion (judge/verdict/torsion_report.h).
   virtual bool is_torsional() const;
-  /// Of torsion, ascending [rad/s].
+  /// Natural frequencies of torsion, ascending [rad/s].
   virtual std::vector<double> natural_frequencies_rad_s(const Machine& machine) const;
 
 protected:
@@ -108,7 +108,7 @@ protected:
   virtual void check_without_masses(const Machine& machine) const;
 };
 
-/// In the order of Machine.
+/// Kinds in the order of Machine.
 const std::vector<const MachineKind*>& machine_kinds();
 
 const MachineKind& kind_of(const Machine& machine);

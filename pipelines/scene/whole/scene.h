@@ -36,7 +36,7 @@ struct MillingSpace {
 struct TorsionScene {
   double slowest_rad_s = 0, fastest_rad_s = 0;  ///< speeds of the reference shaft in the Campbell table
   int n_speeds = 16;
-  std::vector<double> orders;  ///< of the reference shaft, beside those of the excitations
+  std::vector<double> orders;  ///< orders by the reference shaft's speed, beside those of the excitations
   /// Torques over time on single inertias, and how long they are followed; empty: no transient is computed.
   struct Torque {
     std::string inertia;
@@ -62,16 +62,18 @@ struct LoadChange {
 struct EffectChoice {
   struct Dropped {
     std::string effect;
-    double share = 0;  ///< of the loads that changes when it and `with` are switched off (effect_choice.h)
+    /// Share of the loads that changes when it and `with` are switched off (effect_choice.h).
+    double share = 0;
     std::vector<std::string> with{};  ///< effects that went with it, since they need each other
   };
-  std::vector<std::string> offered;     ///< in order; empty: the scene names its effects
-  bool open = false;                    ///< nothing is switched off yet: all that are offered are on
-  double limit = 0;                     ///< of what may change: a tenth of the tolerance
-  std::vector<Dropped> dropped;         ///< from the least to the most important
-  double share = 0;                     ///< of the loads, all of these together
-  LoadChange load_change;               ///< of the load that changes most, whether a body feels it or not
-  std::vector<std::string> taken_back;  ///< dropped at first, but its bound after the solve was too large
+  std::vector<std::string> offered;  ///< in order; empty: the scene names its effects
+  bool open = false;                 ///< nothing is switched off yet: all that are offered are on
+  double limit = 0;                  ///< limit of what may change: a tenth of the tolerance
+  std::vector<Dropped> dropped;      ///< from the least to the most important
+  double share = 0;                  ///< share of the loads that changes by all of these together
+  LoadChange load_change;            ///< change of the load that changes most, whether a body feels it or not
+  /// Effects dropped at first whose bound after the solve was too large.
+  std::vector<std::string> taken_back;
 };
 
 /// The key `effects` of a scene, for what comes to light after reading.
@@ -89,14 +91,15 @@ struct Scene {
   std::string machine_type_at;  ///< "file:line:column: machine.type = ..."
   Machine machine;
   std::optional<MillingSpace> milling_space;  ///< empty if the scene does not give it
-  std::vector<std::string> effects;           ///< those that are on; each known, none twice
+  std::vector<std::string> effects;           ///< effects that are on; each known, none twice
   EffectsKey effects_key;
-  EffectChoice effect_choice;  ///< of effects = "auto"
+  EffectChoice effect_choice;  ///< choice of effects = "auto"
   kinetics::TimeGrid sampling;
   std::vector<BodyScene> bodies;          ///< none: the load stage only
   TorsionScene torsion;                   ///< for a drive train
-  std::optional<kinetics::RunUp> run_up;  ///< of a vibratory mill, instead of steady running
-  bool drum_axes = false;  ///< of a planetary mill: the trunnions' load also in axes that turn with the drum
+  std::optional<kinetics::RunUp> run_up;  ///< run-up of a vibratory mill, instead of steady running
+  /// Whether a planetary mill's trunnions have their load also in axes that turn with the drum.
+  bool drum_axes = false;
   std::vector<BearingScene> bearings;
   LimitsScene limits;                 ///< what the verdict asks for
   std::vector<DutyBlock> duty;        ///< none: the scene's own running alone, for ever
@@ -104,7 +107,7 @@ struct Scene {
   RequestedAccuracy accuracy;         ///< how well the stresses are to be known, and in what time
   ZoneRule zones;
   int snapshots = 24;    ///< over the turn that contains the peak; 0: none
-  bool pictures = true;  ///< of the envelope, as PNG
+  bool pictures = true;  ///< pictures of the envelope, as PNG
   std::vector<DefaultUsed> defaults;
   std::vector<std::string> warnings;  ///< sentences for the user: legal, but worth a look
   /// Every key that the reader knows in this scene, whether it is there or not: dotted, items counted from 1.
@@ -114,7 +117,7 @@ struct Scene {
   /// inertia.
   std::vector<std::string> masses_from_mesh;
 
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
+  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
   Scene();
   Scene(const Scene&);
   Scene(Scene&&) noexcept;

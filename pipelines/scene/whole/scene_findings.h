@@ -42,7 +42,8 @@ inline Range not_negative(double most = std::numeric_limits<double>::infinity())
 inline Range between(double least, double most) {
   return {least, most, false};
 }
-/// Of angles in rad that may be of many turns: beyond, a double has no ten digits of the last turn left.
+/// Range of angles in rad that may be of many turns: beyond, a double has no ten digits of the last turn
+/// left.
 inline Range any_angle() {
   return between(-1e6, 1e6);
 }

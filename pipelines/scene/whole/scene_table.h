@@ -38,19 +38,19 @@ public:
   /// makes a key known nor reports.
   int whole_at(const std::string& table, const std::string& name) const;
   bool has_text(const std::string& name) const;  ///< a text stands there
-  /// That very text stands there.
+  /// Whether that very text stands there.
   bool holds(const std::string& name, const std::string& text) const {
     const TomlEntry* const entry = node_->find(name);
     return entry != nullptr && entry->value.kind == TomlNode::Kind::text && entry->value.text == text;
   }
-  std::vector<std::string> names() const;  ///< of all keys, as written
+  std::vector<std::string> names() const;  ///< names of all keys, as written
   const std::string& key() const noexcept { return key_; }
 
   // Required values: an error if they are missing.
   double quantity(const std::string& name, const std::string& si_unit, const Range& range);
   std::vector<double> quantities(const std::string& name, const std::string& si_unit, const Range& range,
                                  std::size_t count);
-  /// As many as are written, at least one.
+  /// Reads as many quantities as are written, at least one.
   std::vector<double> list(const std::string& name, const std::string& si_unit, const Range& range);
   std::string text(const std::string& name, const std::string& remedy = "is missing; add it");
   /// A text that names a thing (name_fault).
@@ -79,7 +79,7 @@ public:
   /// Reports a missing key at the table; an empty name means the table as a whole.
   void refuse_missing(const std::string& name, const std::string& remedy);
 
-  /// Where a key's value stands and how it is written, for errors that come to light after reading; the
+  /// Place where a key's value stands and how it is written, for errors that come to light after reading; the
   /// table's own place if it has no such key.
   TextAt written_at(const std::string& name) const;
   /// "file:line:column: key = value" of every key in the table of that name, for the same; by key.
@@ -104,7 +104,7 @@ private:
   void refuse_node(const TomlNode& node, const std::string& name, const std::string& remedy);
 
   const TomlNode* node_;
-  SourcePosition at_;  ///< of the table, or of the one that encloses it if it is missing
+  SourcePosition at_;  ///< position of the table, or of the one that encloses it if it is missing
   std::string key_;
   SceneFindings* findings_;
   bool is_present_ = true;

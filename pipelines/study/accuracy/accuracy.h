@@ -23,9 +23,9 @@ struct AccuracyRow {
   std::string fineness;  ///< in words
   int instants_per_turn = 0;
   std::size_t n_dofs = 0;
-  double value_Pa = 0;               ///< of the governing stress (refinement.h)
+  double value_Pa = 0;               ///< governing stress (refinement.h)
   double principal_Pa = 0;           ///< largest principal stress outside the exclusion distances
-  ErrorBudget errors;                ///< of the governing stress
+  ErrorBudget errors;                ///< errors of the governing stress
   std::vector<StageCost> stages;     ///< what this run itself took; a refined mesh: all steps up to it
   double seconds = 0, spread_s = 0;  ///< mean and range over the repeats
   double gigabytes = 0;              ///< largest resident memory during the run
@@ -46,12 +46,12 @@ struct GridStudy {
   struct Mesh {
     std::string fineness;
     std::size_t n_dofs = 0;
-    double size_m = 0;    ///< of its cells (systematic_meshes.h)
+    double size_m = 0;    ///< size of its cells (systematic_meshes.h)
     double value_Pa = 0;  ///< largest stress, between nodes too; or the hot-spot stress
   };
   std::vector<Mesh> meshes;
-  GridConvergence convergence;  ///< of fewer than two meshes: refused
-  /// By how much it exceeds the finest mesh's peak, which is that at a node; 0 for hot spots.
+  GridConvergence convergence;  ///< refused with fewer than two meshes
+  /// Excess over the finest mesh's peak, which is that at a node; 0 for hot spots.
   double between_nodes_Pa = 0;
 
   /// How far the finest mesh's peak may be from the largest stress of an infinitely fine mesh.
@@ -65,12 +65,12 @@ struct AccuracyStudy {
   std::string body, quantity;
   std::vector<AccuracyRow> rows;  ///< cheapest first
   double reference_Pa = 0;
-  double reference_error_Pa = 0;      ///< of an overkill run by its own budget; 0: a known value
+  double reference_error_Pa = 0;      ///< error of an overkill run by its own budget; 0: a known value
   std::string reference;              ///< what it is, in words
   double tolerance = 0;               ///< relative
   std::optional<std::size_t> chosen;  ///< cheapest row whose estimate is within the tolerance
   std::string next_factor_of_two;     ///< a sentence
-  std::vector<EffectPrice> effects;   ///< of the scene's own mesh
+  std::vector<EffectPrice> effects;   ///< prices of the effects on the scene's own mesh
   std::optional<GridStudy> grid;      ///< where it was asked for
   std::vector<LeftOutModel> left_out;
 };
@@ -83,11 +83,11 @@ struct AccuracyStudy {
 void compare_runs(AccuracyStudy& study, double known_Pa);
 
 struct AccuracyOptions {
-  std::filesystem::path directory;  ///< of the body's scratch files
+  std::filesystem::path directory;  ///< directory of the body's scratch files
   int n_threads = 0;
-  double time_limit_s = 120;      ///< of the study of one body; what does not end in time is left out
+  double time_limit_s = 120;      ///< limit of the study of one body; what does not end in time is left out
   double tolerance = 0;           ///< 0: the scene's, or 5 %
-  int n_repeats = 1;              ///< of every run that takes less than a tenth of the time
+  int n_repeats = 1;              ///< repeats of every run that takes less than a tenth of the time
   double reference_Pa = 0;        ///< a known value; 0: an overkill run
   bool grid_convergence = false;  ///< three systematic meshes too
 };

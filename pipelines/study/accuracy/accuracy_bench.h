@@ -40,19 +40,19 @@ public:
   const AccuracyOptions& options() const { return options_; }
   bool has_hot_spots() const { return !own().mesh.hot_spots.empty(); }
 
-  double tolerance() const;  ///< of the options, else of the scene, else 5 %
-  /// Below it, relative to the value, no finer run is made.
+  double tolerance() const;  ///< tolerance of the options, else of the scene, else 5 %
+  /// Error, relative to the value, below which no finer run is made.
   double overkill() const { return 0.1 * tolerance(); }
   double elapsed_s() const;
   double seconds_left() const { return options_.time_limit_s - elapsed_s(); }
 
-  SceneRunOptions run_options() const;  ///< of this body alone, nothing kept
+  SceneRunOptions run_options() const;  ///< options of this body alone, nothing kept
 
-  /// Shown as one stage of the study; the run's own stages go into its row.
+  /// Runs the work as one stage of the study; its own stages go into its row.
   template <typename Work>
   auto timed(const std::string& name, Work&& work) {
     return clock_.run(name, [&] {
-      fem::release_free_memory();  // of the run before
+      fem::release_free_memory();  // memory of the run before
       forget_peak_memory();
       return work();
     });
@@ -92,7 +92,7 @@ public:
   }
 
   /// The scene with `body` in the place of the studied one, from mesh to stress.
-  /// @param name  of the stage that shows
+  /// @param name  name of the stage that shows
   /// @return nothing if the mesh is refused or cannot be solved; then it is among those left out
   std::optional<SolidRun> run_solid(const std::string& model, const std::string& name, const BodyScene& body);
 
@@ -110,7 +110,7 @@ private:
   StageClock& clock_;
   std::chrono::steady_clock::time_point start_;
   std::vector<MeshedBody> meshed_;
-  bool has_any_ = false;  ///< of its runs
+  bool has_any_ = false;  ///< whether a run has ended
   std::vector<LeftOutModel> left_out_;
 };
 

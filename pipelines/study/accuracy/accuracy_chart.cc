@@ -142,8 +142,8 @@ private:
           free_x(y - disc_radius, y + 30 + disc_radius, 120), y + 8);
   }
 
-  /// Where no mark, bar or curve lies between two heights over a width: as far to the right as there is room,
-  /// else at the right end.
+  /// Left end of a width where no mark, bar or curve lies between two heights: as far to the right as there
+  /// is room, else at the right end.
   double free_x(double low, double high, double wide) const {
     const auto is_crossed = [&](double from) {
       const auto meets = [&](double x, double y, double other_x, double other_y) {

@@ -96,7 +96,7 @@ double missing_of_finest_Pa(const std::vector<AccuracyRow>& rows) {
   return missing_Pa;
 }
 
-/// Each size is off by its distance from the finest, and by what that misses.
+/// Takes for the error of each size its distance from the finest, and what that misses.
 void learn_from_sizes(std::vector<AccuracyRow>& rows) {
   if (rows.empty()) return;
   const double finest_Pa = rows.back().value_Pa, missing_Pa = missing_of_finest_Pa(rows);

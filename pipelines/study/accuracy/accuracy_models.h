@@ -12,7 +12,8 @@ std::vector<AccuracyRow> cheap_models(AccuracyBench& bench);
 
 struct SolidModels {
   std::vector<AccuracyRow> rows;
-  std::vector<EffectPrice> effects;  ///< of the scene's own mesh; empty if it could not be run
+  /// Prices of the effects on the scene's own mesh; empty if it could not be run.
+  std::vector<EffectPrice> effects;
 };
 
 /// The scene's mesh from half as fine to several times finer, and its own with fewer instants.
@@ -22,8 +23,8 @@ SolidModels even_meshes(AccuracyBench& bench);
 std::vector<AccuracyRow> refined_meshes(AccuracyBench& bench);
 
 struct SystematicModels {
-  std::vector<AccuracyRow>
-      rows;  ///< the finest with the index as its discretisation error, unless it is refused
+  /// The finest with the index as its discretisation error, unless it is refused.
+  std::vector<AccuracyRow> rows;
   GridStudy study;
 };
 

@@ -6,18 +6,20 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <map>
+#include <limits>
 #include <ostream>
 #include <thread>
 
 #include "pipelines/base/common/version.h"
-#include "pipelines/base/fields/shown_unit.h"
+#include "pipelines/base/fields/field_outputs.h"
 #include "pipelines/base/files/atomic_file.h"
 #include "pipelines/base/files/csv.h"
 #include "pipelines/base/files/hdf5_file.h"
 
 namespace pipelines {
 namespace {
+
+using summary::Json, summary::number_or_none;
 
 std::string processor() {
   std::ifstream info("/proc/cpuinfo");
@@ -30,74 +32,100 @@ double machine_gigabytes() {
   return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE)) / 1e9;
 }
 
-/// Names of all entries, in the order of their first appearance.
-template <typename Names>
-std::vector<std::string> union_of(const std::vector<AccuracyRow>& rows, Names&& names_of) {
-  std::vector<std::string> result;
-  for (const auto& row : rows)
-    for (const auto& name : names_of(row))
-      if (std::find(result.begin(), result.end(), name) == result.end()) result.push_back(name);
-  return result;
+/// "reference", "chosen", "contradicted", "frontier" or nothing.
+std::string mark_of(const StudyRow& r) {
+  if (r.run.is_reference) return "reference";
+  if (r.study.chosen && &r.study.rows[*r.study.chosen] == &r.run) return "chosen";
+  if (r.run.is_contradicted) return "contradicted";
+  return r.run.on_frontier ? "frontier" : "";
 }
 
-std::vector<std::string> sources(const std::vector<AccuracyRow>& rows) {
-  return union_of(rows, [](const auto& row) {
-    std::vector<std::string> names;
-    for (const auto* entries : {&row.errors.numerical, &row.errors.model})
-      for (const auto& entry : *entries) names.push_back(entry.source);
-    return names;
-  });
+Json errors_json(const StudyRow& r) {
+  auto json = Json::object();
+  for (const auto* entries : {&r.run.errors.numerical, &r.run.errors.model})
+    for (const auto& entry : *entries) json[entry.source] = number_or_none(r.run.errors.of(entry.source));
+  return json;
 }
 
-std::vector<std::string> stages(const std::vector<AccuracyRow>& rows) {
-  return union_of(rows, [](const auto& row) {
-    std::vector<std::string> names;
-    for (const auto& stage : row.stages) names.push_back(stage.stage);
-    return names;
-  });
+Json stages_json(const StudyRow& r) {
+  auto json = Json::object();
+  for (const auto& stage : r.run.stages) json[stage.stage] = seconds_of(r.run.stages, stage.stage);
+  return json;
 }
 
-template <typename Value>
-std::vector<double> numbers(const std::vector<AccuracyRow>& rows, Value&& value) {
-  std::vector<double> result;
-  for (const auto& row : rows) result.push_back(value(row));
-  return result;
+std::vector<StudyRow> rows_of(const AccuracyStudy& study) {
+  std::vector<StudyRow> rows;
+  for (const auto& run : study.rows) rows.push_back({study, run});
+  return rows;
 }
 
-std::vector<CsvColumn> columns(const AccuracyStudy& study) {
-  const auto& rows = study.rows;
-  std::vector<std::string> models, meshes, marks;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    models.push_back(rows[i].model);
-    meshes.push_back(rows[i].fineness);
-    marks.push_back(rows[i].is_reference      ? "reference"
-                    : study.chosen == i       ? "chosen"
-                    : rows[i].is_contradicted ? "contradicted"
-                    : rows[i].on_frontier     ? "frontier"
-                                              : "");
+/// In SI; of shares a series each.
+void write_series(Hdf5Writer& writer, const std::string& group, const Field& field, const Json& rows) {
+  for (const auto& column : csv_columns({field}, rows)) {
+    const auto name = group + "/" + column.name, part = column.name.substr(field.column.size());
+    if (field.quantity.shape == Shape::text) {
+      writer.write(name, std::get<std::vector<std::string>>(column.cells));
+      continue;
+    }
+    std::vector<double> values;
+    for (const auto& row : rows) {
+      const auto& value = value_of(row, field);
+      const auto number = value.is_object() ? value.value(part, Json(0.0)) : value;
+      values.push_back(number.is_number() ? number.get<double>() : std::numeric_limits<double>::quiet_NaN());
+    }
+    writer.write(name, values, {field.quantity.one == 1 ? field.quantity.unit : std::string("Pa"), ""});
   }
-  std::vector<CsvColumn> result{{"model", "", models}, {"mesh", "", meshes}, {"mark", "", marks}};
-  const auto add = [&](const std::string& name, const std::string& unit, auto&& value) {
-    result.push_back({name, unit, numbers(rows, value)});
-  };
-  add("instants_per_turn", "1", [](const auto& row) { return double(row.instants_per_turn); });
-  add("unknowns", "1", [](const auto& row) { return double(row.n_dofs); });
-  add("value", "Pa", [](const auto& row) { return row.value_Pa; });
-  add("largest_principal_stress", "Pa", [](const auto& row) { return row.principal_Pa; });
-  add("error_estimated", "Pa", [](const auto& row) { return row.errors.total_Pa(); });
-  add("error_true", "Pa", [](const auto& row) { return row.true_error_Pa; });
-  add("effectivity", "1", [](const auto& row) { return effectivity(row); });
-  add("seconds", "s", [](const auto& row) { return row.seconds; });
-  add("seconds_spread", "s", [](const auto& row) { return row.spread_s; });
-  add("memory", "GB", [](const auto& row) { return row.gigabytes; });
-  for (const auto& source : sources(rows))
-    add("error." + source, "Pa", [&](const auto& row) { return row.errors.of(source); });
-  for (const auto& stage : stages(rows))
-    add("seconds." + stage, "s", [&](const auto& row) { return seconds_of(row.stages, stage); });
-  return result;
 }
 
 }  // namespace
+
+FieldTable<StudyRow> accuracy_fields() {
+  using Field = FieldOf<StudyRow>;
+  const auto number_of = [](auto of) { return [=](const StudyRow& r) { return number_or_none(of(r.run)); }; };
+  const auto share_of_reference = [](const char* key) {
+    return [=](const Json& row) {
+      const double reference_Pa = row.at("reference_Pa").get<double>();
+      return fmt::format("{:.2f}%", reference_Pa > 0 ? 100 * row.at(key).get<double>() / reference_Pa : 0);
+    };
+  };
+  constexpr Quantity gigabytes{Shape::number, "", "GB", 1, "{:.2g}"};
+  constexpr Quantity stress_by_name{Shape::shares, "", "MPa", 1e6, "{:.2f}"};
+  constexpr Quantity seconds_by_name{Shape::shares, "", "s", 1, "{:.3g}"};
+  return {
+      {"model", quantities::text, "as `accuracy` calls it", "model",
+       [](const auto& r) { return r.run.model; }},
+      {"mark", quantities::text, "`reference`, `chosen`, `contradicted` or `frontier`", "mark", mark_of},
+      {"instants_per_turn", quantities::count, "of the loads",
+       [](const auto& r) { return r.run.instants_per_turn; }},
+      {"unknowns", quantities::count, "of the mesh", "unknowns", [](const auto& r) { return r.run.n_dofs; }},
+      Field("value", quantities::stress, "governing stress", "stress",
+            number_of([](const auto& run) { return run.value_Pa; }))
+          .digits("{:.2f}"),
+      {"largest_principal_stress", quantities::stress, "outside the exclusion distances",
+       number_of([](const auto& run) { return run.principal_Pa; })},
+      {"reference", quantities::stress, "what runs are compared with",
+       [](const auto& r) { return r.study.reference_Pa; }},
+      Field("error_estimated", quantities::stress, "by the run's own budget; people read its share",
+            "estimate", number_of([](const auto& run) { return run.errors.total_Pa(); }))
+          .shown_as(share_of_reference("error_estimated_Pa")),
+      Field("error_true", quantities::stress, "distance from the reference; people read its share", "true",
+            number_of([](const auto& run) { return run.true_error_Pa; }))
+          .shown_as(share_of_reference("error_true_Pa")),
+      {"effectivity", quantities::ratio, "estimated over true error; empty: the run meets the reference",
+       number_of([](const auto& run) { return effectivity(run); })},
+      Field("seconds", quantities::time, "mean over the repeats", "took",
+            number_of([](const auto& run) { return run.seconds; }))
+          .digits("{:.3g}"),
+      Field("seconds_spread", quantities::time, "range over the repeats", "spread",
+            number_of([](const auto& run) { return run.spread_s; }))
+          .digits("{:.2g}"),
+      {"memory", gigabytes, "largest during the run", "memory",
+       number_of([](const auto& run) { return run.gigabytes; })},
+      {"mesh", quantities::text, "in words", "mesh", [](const auto& r) { return r.run.fineness; }},
+      Field("error", stress_by_name, "by source", errors_json).in_column("error."),
+      Field("seconds_by_stage", seconds_by_name, "by stage", stages_json).in_column("seconds."),
+  };
+}
 
 std::string machine_and_versions() {
   return fmt::format("{}, {} threads, {:.0f} GB; millstress {}, {}", processor(),
@@ -121,7 +149,7 @@ Effectivities effectivities(const AccuracyStudy& study) {
   return result;
 }
 
-/// Where `run --tolerance` ends: the first step of the refined mesh whose own estimate is within it.
+/// Tells where `run --tolerance` ends: the first step of the refined mesh whose own estimate is within it.
 std::string where_tolerances_end(const AccuracyStudy& study) {
   std::string text;
   for (const double tolerance : {0.05, 0.02, 0.01}) {
@@ -157,28 +185,14 @@ void print_accuracy(std::ostream& out, const AccuracyStudy& study) {
   out << fmt::format("\n{}: {}, what accuracy costs\n  {}\n  reference {:.2f} MPa ({}", study.body,
                      study.quantity, machine_and_versions(), study.reference_Pa / 1e6, study.reference);
   out << (study.reference_error_Pa > 0
-              ? fmt::format("; its own estimate {:.2f} MPa)\n\n", study.reference_error_Pa / 1e6)
-              : ")\n\n");
-  out << fmt::format("    {:<16}{:>10}{:>9}{:>10}{:>10}{:>9}{:>9}{:>7}  {}\n", "model", "unknowns", "MPa",
-                     "estimate", "true", "seconds", "spread", "GB", "mesh");
-  for (std::size_t i = 0; i < study.rows.size(); ++i) {
-    const auto& row = study.rows[i];
-    const double percent = study.reference_Pa > 0 ? 100 / study.reference_Pa : 0;
-    const char mark = row.is_reference      ? 'R'
-                      : study.chosen == i   ? '>'
-                      : row.is_contradicted ? '!'
-                      : row.on_frontier     ? '*'
-                                            : ' ';
-    out << fmt::format("  {} {:<16}{:>10}{:>9.2f}{:>9.2f}%{:>9.2f}%{:>9.3g}{:>9.2g}{:>7.2g}  {}\n", mark,
-                       row.model, row.n_dofs, row.value_Pa / 1e6, percent * row.errors.total_Pa(),
-                       percent * row.true_error_Pa, row.seconds, row.spread_s, row.gigabytes, row.fineness);
-  }
+              ? fmt::format("; its own estimate {:.2f} MPa)\n", study.reference_error_Pa / 1e6)
+              : ")\n");
+  print_list(out, accuracy_fields(), rows_of(study));
   for (const auto& model : study.left_out)
     out << fmt::format("    {:<15} left out: {}\n", model.model, model.why);
   const auto e = effectivities(study);
   out << fmt::format(
-             "\n  > chosen: cheapest within {:g} % by its own estimate; * no cheaper run is closer; R "
-             "reference\n",
+             "\n  chosen: cheapest within {:g} % by its own estimate; frontier: no cheaper run is closer\n",
              100 * study.tolerance)
       << "  " << study.next_factor_of_two << "\n  run --tolerance ends with\n"
       << where_tolerances_end(study)
@@ -191,7 +205,7 @@ void print_accuracy(std::ostream& out, const AccuracyStudy& study) {
 }
 
 void write_accuracy_csv(const std::filesystem::path& file, const AccuracyStudy& study) {
-  write_csv(file, in_shown_units(columns(study)));
+  write_csv(file, csv_columns(fields_of(accuracy_fields()), whole_rows(accuracy_fields(), rows_of(study))));
 }
 
 void write_accuracy_h5(const std::filesystem::path& file, const std::vector<AccuracyStudy>& studies) {
@@ -221,13 +235,8 @@ void write_accuracy_h5(const std::filesystem::path& file, const std::vector<Accu
       writer.attribute(group, "grid_convergence_between_nodes_Pa", study.grid->between_nodes_Pa);
       writer.attribute(group, "grid_convergence_refusal", c.refusal);
     }
-    for (const auto& column : columns(study)) {
-      const std::string object = group + "/" + column.name;
-      if (const auto* text = std::get_if<std::vector<std::string>>(&column.cells))
-        writer.write(object, *text);
-      else
-        writer.write(object, std::get<std::vector<double>>(column.cells), {column.unit, ""});
-    }
+    const auto rows = whole_rows(accuracy_fields(), rows_of(study));
+    for (const auto& field : accuracy_fields()) write_series(writer, group, field, rows);
   }
   writer.close();
   atomic.commit();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/base/fields/field.h"
 #include "pipelines/study/accuracy/accuracy.h"
 
 namespace pipelines {
@@ -16,6 +17,24 @@ std::string where_tolerances_end(const AccuracyStudy& study);
 
 /// A warning that names every run which the reference contradicts; empty if there is none.
 std::string disagreements(const AccuracyStudy& study);
+
+/// A run and the study that it belongs to.
+struct StudyRow {
+  const AccuracyStudy& study;
+  const AccuracyRow& run;
+};
+
+/// <body>.csv and accuracy.h5.
+FieldTable<StudyRow> accuracy_fields();
+
+/// A systematic mesh and the one before it, if there is one.
+struct GridRow {
+  const GridStudy::Mesh& mesh;
+  const GridStudy::Mesh* coarser;
+};
+
+/// <body>_gci.csv.
+FieldTable<GridRow> grid_fields();
 
 /// The table on the terminal, with what it ran on.
 void print_accuracy(std::ostream& out, const AccuracyStudy& study);

@@ -19,7 +19,8 @@ struct Series {
   std::string model;
   int degree = 2;
   std::vector<double> factors;
-  double share_of_time = 0;  ///< of what even meshes find; what is predicted to end later is left out
+  /// Latest end, as a share of the time that even meshes find; what is predicted to end later is left out.
+  double share_of_time = 0;
 };
 
 // Half the time is for even meshes, the rest for refined ones. Cells of degree 1 are there to show what they
@@ -95,7 +96,8 @@ double stress_order(const AccuracyBench& bench, int degree) {
   return degree == 1 || bench.has_hot_spots() ? 1 : 2;
 }
 
-/// By the run before, or where a series begins, by the last of another; 0 where nothing was run.
+/// Predicted time from the run before, or where a series begins, from the last of another; 0 where nothing
+/// was run.
 double predicted_s(const std::optional<AccuracyRow>& before, const std::vector<AccuracyRow>& others,
                    double n_dofs) {
   if (!before && others.empty()) return 0;

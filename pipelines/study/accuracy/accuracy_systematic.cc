@@ -27,7 +27,7 @@ double peak_between_nodes_Pa(const Judged& analysis) {
   return largest_Pa;
 }
 
-/// Of the finest up to three meshes.
+/// Grid convergence index from the finest meshes, at most three.
 GridConvergence converge(const std::vector<GridStudy::Mesh>& meshes, int degree) {
   std::vector<MeshValue> values;
   for (const auto& mesh : meshes) values.push_back({mesh.size_m, mesh.value_Pa});

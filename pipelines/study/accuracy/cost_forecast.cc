@@ -30,7 +30,7 @@ constexpr double beam_nodes = 1500;
 /// the times of `tests/benchmarks/run --benchmark_filter=superposition`.
 constexpr double s_per_product = 1.5e-10, products_per_instant = 12, products_per_node = 7000;
 
-/// Those of its mesh, or about as many where none was made.
+/// Unknowns of the body's mesh, or about as many where none was made.
 std::size_t unknowns_of(const BodyScene& body, const MeshedBody& meshed) {
   return meshed.model ? meshed.model->n_dofs() : estimated_unknowns(body);
 }

@@ -18,7 +18,7 @@ struct ModelForecast {
   std::size_t n_dofs = 0;
   fem::Solver solver = fem::Solver::direct;  ///< automatic: the model has its own
   double solve_s = 0, superpose_s = 0;
-  double gigabytes = 0;    ///< of solver and unit responses
+  double gigabytes = 0;    ///< memory of solver and unit responses
   std::string left_out{};  ///< not empty: why its mesh was refused; nothing else is known of it
 };
 
@@ -53,8 +53,8 @@ struct RunForecast {
   bool ends_by_limit = false;  ///< the time limit, of the scene or the default, is shorter than the searches
 };
 
-/// From the ladder of each body, in the order of the scene. A search is taken as a few times its first mesh,
-/// as the shipped scenes' searches are (README.md): within a factor of three.
+/// Forecast from the models of each body, in the order of the scene. A search is taken as a few times its
+/// first mesh, as the shipped scenes' searches are (README.md): within a factor of three.
 RunForecast forecast_run(const Scene& scene, const std::vector<std::vector<ModelForecast>>& ladders);
 
 /// The same before anything is distributed, for a progress bar: of as many unit loads as a shaft or a chamber

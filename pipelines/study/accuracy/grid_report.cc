@@ -2,23 +2,43 @@
 
 #include <ostream>
 
-#include "pipelines/base/fields/shown_unit.h"
+#include "pipelines/base/fields/field_outputs.h"
 #include "pipelines/base/files/csv.h"
 #include "pipelines/study/accuracy/accuracy_report.h"
 
 namespace pipelines {
+namespace {
+
+std::vector<GridRow> rows_of(const GridStudy& study) {
+  std::vector<GridRow> rows;
+  for (const auto& mesh : study.meshes) rows.push_back({mesh, rows.empty() ? nullptr : &rows.back().mesh});
+  return rows;
+}
+
+}  // namespace
+
+FieldTable<GridRow> grid_fields() {
+  using Field = FieldOf<GridRow>;
+  return {
+      {"mesh", quantities::text, "in words", "mesh", [](const auto& r) { return r.mesh.fineness; }},
+      {"unknowns", quantities::count, "of the mesh", "unknowns", [](const auto& r) { return r.mesh.n_dofs; }},
+      Field("cell_size", quantities::length, "of its cells", "cell",
+            [](const auto& r) { return r.mesh.size_m; })
+          .digits("{:.3f}"),
+      Field("ratio", quantities::ratio, "of the coarser mesh's cells to its own", "ratio",
+            [](const auto& r) {
+              return r.coarser ? summary::Json(r.coarser->size_m / r.mesh.size_m) : summary::Json(nullptr);
+            })
+          .digits("{:.3f}"),
+      Field("value", quantities::stress, "largest stress", "stress", [](const auto& r) {
+        return r.mesh.value_Pa;
+      }).digits("{:.3f}")};
+}
 
 void print_grid_study(std::ostream& out, const GridStudy& study) {
   const auto& c = study.convergence;
-  out << "\n  systematic meshes\n"
-      << fmt::format("    {:>10}{:>12}{:>9}{:>9}  {}\n", "unknowns", "cell, mm", "ratio", "MPa", "mesh");
-  for (std::size_t i = 0; i < study.meshes.size(); ++i) {
-    const auto& mesh = study.meshes[i];
-    const std::string ratio =
-        i > 0 ? fmt::format("{:.3f}", study.meshes[i - 1].size_m / mesh.size_m) : std::string();
-    out << fmt::format("    {:>10}{:>12.3f}{:>9}{:>9.3f}  {}\n", mesh.n_dofs, 1e3 * mesh.size_m, ratio,
-                       mesh.value_Pa / 1e6, mesh.fineness);
-  }
+  out << "\n  systematic meshes";
+  print_list(out, grid_fields(), rows_of(study));
   if (c.observed_order != 0) out << fmt::format("    observed order {:.2f}", c.observed_order);
   if (c.order > 0)
     out << fmt::format(
@@ -34,18 +54,7 @@ void print_grid_study(std::ostream& out, const GridStudy& study) {
 }
 
 void write_grid_csv(const std::filesystem::path& file, const GridStudy& study) {
-  std::vector<std::string> meshes;
-  std::vector<double> unknowns, sizes, values;
-  for (const auto& mesh : study.meshes) {
-    meshes.push_back(mesh.fineness);
-    unknowns.push_back(double(mesh.n_dofs));
-    sizes.push_back(mesh.size_m);
-    values.push_back(mesh.value_Pa);
-  }
-  write_csv(file, in_shown_units({{"mesh", "", meshes},
-                                  {"unknowns", "1", unknowns},
-                                  {"cell_size", "m", sizes},
-                                  {"value", "Pa", values}}));
+  write_csv(file, csv_columns(fields_of(grid_fields()), whole_rows(grid_fields(), rows_of(study))));
 }
 
 }  // namespace pipelines

@@ -10,9 +10,9 @@
 namespace pipelines {
 namespace {
 
-constexpr int scene_level = 4;          // of shafts and tetrahedra: about as fine as the scene's mesh
+constexpr int scene_level = 4;  // level of shafts and tetrahedra that is about as fine as the scene's mesh
 constexpr int scene_level_chamber = 2;  // one mesh coarser than the scene's has one cell through the wall
-constexpr double steepest_growth = meshes::ShaftMeshControl::steepest_growth;  // of chambers too
+constexpr double steepest_growth = meshes::ShaftMeshControl::steepest_growth;  // limit for chambers too
 
 /// Multiple of `unit` that comes closest to the scene's count, at least one.
 int multiple(int count, int unit) {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "pipelines/base/fields/field_outputs.h"
 #include "pipelines/scene/whole/body_effects.h"
 #include "pipelines/scene/whole/body_kind.h"
 #include "pipelines/search/effect_choice/effect_choice.h"
@@ -14,7 +14,7 @@
 namespace pipelines {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using summary::Json;
 using Force = GivenForce;
 
 double across_N(const Force& force) {
@@ -93,6 +93,33 @@ std::string where_to_look(const Scene& scene, const std::string& body) {
 
 }  // namespace
 
+FieldTable<LoadShare> load_share_fields() {
+  const auto share = [](const char* key, const char* title, const char* meaning, double LoadShare::*of) {
+    return FieldOf<LoadShare>(key, quantities::percent, meaning, title,
+                              [=](const LoadShare& s) { return summary::number_or_none(s.*of); })
+        .digits("{:.3g}");
+  };
+  return without_csv(FieldTable<LoadShare>{
+      share("largest_share", "largest share", "largest size of the part over that of the load",
+            &LoadShare::largest),
+      share("rms_share", "RMS share", "the same of the root mean squares", &LoadShare::rms),
+      share(
+          "change_if_off", "change if off",
+          "largest change of the load without the effect, over its largest size; null: it cannot be without",
+          &LoadShare::if_off),
+  });
+}
+
+Json load_shares_json(const std::vector<LoadShare>& shares) {
+  Json json;
+  for (const auto& share : shares) json[share.load] = summary_row(load_share_fields(), share);
+  return json;
+}
+
+void print_load_shares(std::ostream& out, const std::vector<LoadShare>& shares) {
+  print_rows(out, "load", shown_named_rows("load", fields_of(load_share_fields()), load_shares_json(shares)));
+}
+
 std::vector<BodyEffect> effects_of_bodies(const Scene& scene) {
   std::vector<BodyEffect> effects;
   for (const auto& body : scene.bodies)
@@ -124,12 +151,7 @@ void print_effects_of_bodies(std::ostream& out, const Scene& scene, bool all) {
       out << '\n';
       continue;
     }
-    if (effect.shares.empty()) continue;
-    out << fmt::format("    {:<28}{:>16}{:>16}{:>16}\n", "load", "largest share", "RMS share",
-                       "change if off");
-    for (const auto& share : effect.shares)
-      out << fmt::format("    {:<28}{:>16}{:>16}{:>16}\n", share.load, percent(share.largest),
-                         percent(share.rms), percent(share.if_off));
+    print_load_shares(out, effect.shares);
   }
 }
 
@@ -142,9 +164,7 @@ std::string with_effects_of_bodies(const std::string& json, const Scene& scene) 
         {"body", effect.body}, {"description", effect.effect.description}, {"source", effect.effect.source}};
     if (effect.forces.empty()) entry["size"] = where_to_look(scene, effect.body);
     for (const auto& force : effect.forces) entry["forces"].push_back(force);
-    for (const auto& share : effect.shares)
-      entry["loads"][share.load] = {
-          {"largest_share", share.largest}, {"rms_share", share.rms}, {"change_if_off", share.if_off}};
+    if (!effect.shares.empty()) entry["loads"] = load_shares_json(effect.shares);
     whole["body_effects"][effect.effect.name] = std::move(entry);
   }
   return whole.dump(2) + "\n";
@@ -169,10 +189,15 @@ std::vector<EffectSize> effect_sizes(const BodyLoads& loads, const std::vector<R
   return sizes;
 }
 
+FieldTable<EffectSize> effect_size_fields() {
+  return without_csv(FieldTable<EffectSize>{
+      {"effect", quantities::text, "that is on", "effects on it, at most", &EffectSize::effect},
+      {"force", quantities::force, "of all its forces", "sum of forces", &EffectSize::force_N},
+      {"moment", quantities::torque, "of all its moments", "sum of moments", &EffectSize::moment_Nm}});
+}
+
 void print_effect_sizes(std::ostream& out, const std::vector<EffectSize>& sizes) {
-  out << fmt::format("  {:<30}{:>16}{:>18}\n", "effects on it, at most", "sum of forces", "sum of moments");
-  for (const auto& size : sizes)
-    out << fmt::format("    {:<28}{:>14.4g} N{:>14.4g} N m\n", size.effect, size.force_N, size.moment_Nm);
+  print_list(out, effect_size_fields(), sizes);
 }
 
 }  // namespace pipelines

@@ -7,20 +7,29 @@
 #include <vector>
 
 #include "kinetics/values/effect_info.h"
+#include "pipelines/base/fields/field.h"
 #include "pipelines/loads/channels/load_collector.h"
 #include "pipelines/scene/whole/scene.h"
 #include "pipelines/search/effect_choice/effect_report.h"
 
 namespace pipelines {
 
+/// Parts of effects in loads: loads.<load> of an effect.
+FieldTable<LoadShare> load_share_fields();
+
+/// By load; null without any.
+summary::Json load_shares_json(const std::vector<LoadShare>& shares);
+
+void print_load_shares(std::ostream& out, const std::vector<LoadShare>& shares);
+
 /// One effect of one body that is on.
 struct BodyEffect {
   std::string body;
   kinetics::EffectInfo effect;
-  std::vector<std::string>
-      forces;  ///< "240 N across, at rest, on pulley_seat"; none: the mesh tells its size
-  std::vector<LoadShare>
-      shares;  ///< of all such forces on the port: "<body>/<port>.force", "<body>/<port>.fz"
+  /// "240 N across, at rest, on pulley_seat"; none: the mesh tells its size.
+  std::vector<std::string> forces;
+  /// Shares of all such forces on the port: "<body>/<port>.force", "<body>/<port>.fz".
+  std::vector<LoadShare> shares;
 };
 
 /// Effects of the scene's bodies that are on, in the order of their tables. A force at rest and one that
@@ -44,6 +53,7 @@ struct EffectSize {
 
 /// What each effect brings to a meshed body; those that bring nothing are left out.
 std::vector<EffectSize> effect_sizes(const BodyLoads& loads, const std::vector<RegionMass>& regions);
+FieldTable<EffectSize> effect_size_fields();
 void print_effect_sizes(std::ostream& out, const std::vector<EffectSize>& sizes);
 
 }  // namespace pipelines

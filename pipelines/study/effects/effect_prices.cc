@@ -6,6 +6,7 @@
 #include <ostream>
 #include <string>
 
+#include "pipelines/base/fields/field_outputs.h"
 #include "pipelines/base/names/name_lists.h"
 #include "pipelines/scene/values/effect_groups.h"
 
@@ -46,14 +47,26 @@ std::vector<EffectPrice> price_effects(const Judged& analysis, double solve_s, d
   return prices;
 }
 
+FieldTable<EffectPrice> effect_price_fields() {
+  using Field = FieldOf<EffectPrice>;
+  return without_csv(FieldTable<EffectPrice>{
+      {"effect", quantities::text, "that is on", "effect", &EffectPrice::effect},
+      Field("share", quantities::percent, "of the peak", "of the peak", &EffectPrice::share).digits("{:.2f}"),
+      {"channels", quantities::count, "that it feeds", "channels", &EffectPrice::n_channels},
+      {"own_channels", quantities::count, "that it alone feeds", "its own", &EffectPrice::n_own},
+      Field("evaluation", quantities::time, "of the load stage", "load stage", &EffectPrice::evaluation_s)
+          .digits("{:.3g}"),
+      Field("saved", quantities::time,
+            "at most without it: of the load stage, and of solve and superposition of its own channels",
+            "saved if off",
+            [](const EffectPrice& p) { return p.evaluation_s + p.unit_loads_s + p.superposition_s; })
+          .digits("{:.3g}"),
+  });
+}
+
 void print_effect_prices(std::ostream& out, const std::string& body, const std::vector<EffectPrice>& prices) {
-  out << fmt::format("\n  effects on the {}{:>{}}{:>10}{:>12}{:>14}{:>16}\n", body, "of the peak",
-                     std::max<int>(1, 30 - int(body.size())), "channels", "its own", "load stage s",
-                     "saved if off s");
-  for (const auto& p : prices)
-    out << fmt::format("    {:<30}{:>12.2f}%{:>10}{:>12}{:>14.3g}{:>16.3g}\n", p.effect, 100 * p.share,
-                       p.n_channels, p.n_own, p.evaluation_s,
-                       p.evaluation_s + p.unit_loads_s + p.superposition_s);
+  out << "\n  effects on the " << body;
+  print_list(out, effect_price_fields(), prices);
   std::vector<std::string> names;
   for (const auto& p : prices) names.push_back(p.effect);
   if (const auto groups = effect_groups(names); any_sums(groups))
@@ -61,7 +74,7 @@ void print_effect_prices(std::ostream& out, const std::string& body, const std::
       double share = 0;
       for (const auto& p : prices)
         if (contains(group.effects, p.effect)) share += p.share;
-      out << fmt::format("    {:<30}{:>12.2f}%\n", group.name + ", in sum", 100 * share);
+      out << fmt::format("    {}, in sum: {:.2f}%\n", group.name, 100 * share);
     }
   out << "    saved if off, at most: its own seconds of the load stage, and the share of solve and "
          "superposition "

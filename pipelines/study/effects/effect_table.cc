@@ -2,20 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "pipelines/base/fields/field_outputs.h"
 #include "pipelines/base/names/nearest_name.h"
-#include "pipelines/search/effect_choice/effect_report.h"
+#include "pipelines/study/effects/body_effect_report.h"
 
 namespace pipelines {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
+using summary::Json, summary::number_or_none;
 
 std::string nanoseconds(const MeasuredTime& time) {
   return fmt::format("{:.0f} ns per instant, of seven runs five took {:.0f} to {:.0f}", 1e9 * time.median_s,
@@ -26,32 +22,16 @@ Json json_of_time(const MeasuredTime& time) {
   return {{"median", time.median_s}, {"low", time.low_s}, {"high", time.high_s}};
 }
 
-void print_shares(std::ostream& out, const std::vector<LoadShare>& shares) {
-  out << fmt::format("    {:<28}{:>16}{:>16}{:>16}\n", "load", "largest share", "RMS share", "change if off");
-  for (const auto& share : shares)
-    out << fmt::format("    {:<28}{:>16}{:>16}{:>16}\n", share.load, percent(share.largest),
-                       percent(share.rms), percent(share.if_off));
-}
-
-Json json_of_shares(const std::vector<LoadShare>& shares) {
-  Json json;
-  for (const auto& share : shares)
-    json[share.load] = {{"largest_share", number_or_null(share.largest)},
-                        {"rms_share", number_or_null(share.rms)},
-                        {"change_if_off", number_or_null(share.if_off)}};
-  return json;
-}
-
 /// Everything: a table of each group, then of each effect.
 void print_all(std::ostream& out, const EffectReport& report) {
   for (const auto& group : report.groups) {
     out << fmt::format("\n  {}, in sum: {}\n", group.name, listed(group.effects));
-    print_shares(out, group.shares);
+    print_load_shares(out, group.shares);
     if (!group.indispensable.empty()) out << "    cannot be left out: " << group.indispensable << '\n';
   }
   for (const auto& worth : report.effects) {
     out << fmt::format("\n  {}: {} ({})\n", worth.effect.name, worth.effect.description, worth.effect.source);
-    print_shares(out, worth.shares);
+    print_load_shares(out, worth.shares);
     if (!worth.indispensable.empty())
       out << "    cannot be left out by itself: " << worth.indispensable << '\n';
     else if (worth.per_instant.is_seen())
@@ -62,7 +42,7 @@ void print_all(std::ostream& out, const EffectReport& report) {
   out << "\n  all effects: " << nanoseconds(report.per_instant) << '\n';
 }
 
-/// As people read it: no exponents, and nothing of round-off.
+/// Percentage as people read it: no exponents, and nothing of round-off.
 std::string short_percent(double share) {
   constexpr double least = 1e-4;
   if (!std::isfinite(share)) return "-";
@@ -90,19 +70,18 @@ struct EffectRow {
   }
 };
 
-void print_rows(std::ostream& out, const std::string& title, std::vector<EffectRow> rows) {
+void print_effect_rows(std::ostream& out, const std::string& title, std::vector<EffectRow> rows) {
   const auto size_of = [](const EffectRow& row) {
     const auto* most = row.most();
     return most == nullptr ? 0.0 : row.size(*most);
   };
   std::stable_sort(rows.begin(), rows.end(),
                    [&](const auto& a, const auto& b) { return size_of(a) > size_of(b); });
-  out << fmt::format("\n  {:<28}{:>15}{:>15}  {:<26}{}\n", title, "largest part", "change if off",
-                     "of the load", "other loads");
+  ShownRows table{{title, "largest part", "change if off", "of the load", "other loads"}, {}};
   for (const auto& row : rows) {
     const auto* most = row.most();
     if (most == nullptr) {
-      out << fmt::format("    {:<26}{:>15}{:>15}\n", row.name, "-", "-");
+      table.cells.push_back({row.name, "-", "-", "", ""});
       continue;
     }
     std::size_t n_felt = 0, n_small = 0;
@@ -112,9 +91,11 @@ void print_rows(std::ostream& out, const std::string& title, std::vector<EffectR
     if (n_small > 0)
       others +=
           fmt::format("{}{} below {}", others.empty() ? "" : ", ", n_small, percent(negligible_load_share));
-    out << fmt::format("    {:<26}{:>15}{:>15}  {:<26}{}\n", row.name, short_percent(most->largest),
-                       row.is_indispensable ? "needed" : short_percent(most->if_off), most->load, others);
+    table.cells.push_back({row.name, short_percent(most->largest),
+                           row.is_indispensable ? "needed" : short_percent(most->if_off), most->load,
+                           others});
   }
+  print_rows(out, title, table);
 }
 
 void print_short(std::ostream& out, const EffectReport& report) {
@@ -123,8 +104,8 @@ void print_short(std::ostream& out, const EffectReport& report) {
     groups.push_back({group.name, &group.shares, !group.indispensable.empty()});
   for (const auto& worth : report.effects)
     effects.push_back({worth.effect.name, &worth.shares, !worth.indispensable.empty()});
-  if (!groups.empty()) print_rows(out, "parts of the machine", std::move(groups));
-  print_rows(out, "effects", std::move(effects));
+  if (!groups.empty()) print_effect_rows(out, "parts of the machine", std::move(groups));
+  print_effect_rows(out, "effects", std::move(effects));
   out << "    largest part: its largest size over that of the load; needed: others need it, -v says which; "
          "all "
          "loads, RMS and seconds: -v, --json\n";
@@ -155,8 +136,8 @@ std::string effects_json(const Scene& scene, const EffectReport& report) {
   if (!scene.settings.empty()) json["settings"] = scene.settings;
   for (const auto& worth : report.effects) {
     Json entry{{"description", worth.effect.description}, {"source", worth.effect.source}};
-    if (!worth.shares.empty()) entry["loads"] = json_of_shares(worth.shares);
-    entry["change_if_off"] = number_or_null(worth.if_off);
+    if (!worth.shares.empty()) entry["loads"] = load_shares_json(worth.shares);
+    entry["change_if_off"] = number_or_none(worth.if_off);
     entry["worst_load"] = worth.worst_load;
     entry["indispensable"] = worth.indispensable;
     entry["seconds_per_instant"] = json_of_time(worth.per_instant);
@@ -167,7 +148,7 @@ std::string effects_json(const Scene& scene, const EffectReport& report) {
   json["change_if_all_off"] = report.if_all_off;
   for (const auto& group : report.groups)
     json["groups"][group.name] = {{"effects", group.effects},
-                                  {"loads", json_of_shares(group.shares)},
+                                  {"loads", load_shares_json(group.shares)},
                                   {"indispensable", group.indispensable}};
   json["seconds_per_instant"] = json_of_time(report.per_instant);
   return json.dump(2) + "\n";

@@ -14,17 +14,17 @@
 namespace pipelines {
 
 /// The rank of each point: groups go to the ranks in turn, each as a whole.
-/// @param group    of each point, numbers from 0 without gaps (SweepRun::groups)
+/// @param group    group of each point, numbered from 0 without gaps (SweepRun::groups)
 /// @param n_ranks  at least 1
 std::vector<int> deal_points(const std::vector<std::size_t>& group, int n_ranks);
 
-/// On every rank but the first: rows on their way to rank 0, which may be long at its own points.
+/// Sends rows from every rank but the first to rank 0, which may be long at its own points.
 class RowsToFirstRank {
 public:
   explicit RowsToFirstRank(const SweepPlan& plan) : plan_(plan) {}
   void send(const std::vector<std::size_t>& points, const std::vector<SweepRow>& rows);
-  /// After the last row. Returns when rank 0 has them all.
-  /// @param n_improved_meshes  of SweepRun
+  /// Ends the sending after the last row. Returns when rank 0 has them all.
+  /// @param n_improved_meshes  the one of SweepRun
   void end(std::size_t n_improved_meshes);
 
 private:
@@ -38,7 +38,7 @@ private:
   std::list<Sent> sent_;
 };
 
-/// On rank 0.
+/// Receives on rank 0 the rows of other ranks.
 class RowsOfOtherRanks {
 public:
   /// @param n_ranks  the first included
@@ -47,7 +47,7 @@ public:
   void take(std::vector<SweepRow>& rows, const SweepListener& listener);
   /// Waits until all ranks have ended.
   void take_all(std::vector<SweepRow>& rows, const SweepListener& listener);
-  /// Whose rows have come.
+  /// Points whose rows have come.
   const std::vector<std::size_t>& points() const noexcept { return points_; }
   std::size_t n_improved_meshes() const noexcept { return n_improved_; }
 

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Of all rows, one value per point, in the order in which figures appear.
+/// A figure of all rows, one value per point.
 struct FigureColumn {
   std::string name, unit;
   std::vector<double> values;
@@ -64,18 +64,17 @@ std::vector<std::string> refusals(const std::vector<SweepRow>& rows) {
   return texts;
 }
 
-/// Of the points, numbers where all that the key takes are numbers.
+/// Whether the k-th key takes numbers alone, and so do all points.
 bool is_numeric(const SweepPlan& plan, std::size_t k) {
   return plan.variations[k].is_numeric() &&
          std::all_of(plan.points.begin(), plan.points.end(),
                      [&](const auto& p) { return !std::isnan(p.numbers[k]); });
 }
 
-template <typename Of>
-auto by_point(const SweepPlan& plan, const Of& of) {
-  std::vector<std::decay_t<decltype(of(plan.points.front()))>> values;
-  for (const auto& point : plan.points) values.push_back(of(point));
-  return values;
+std::vector<std::size_t> all_points(const SweepPlan& plan) {
+  std::vector<std::size_t> all(plan.points.size());
+  std::iota(all.begin(), all.end(), std::size_t(0));
+  return all;
 }
 
 /// The number of each point, from 1, and its keys.
@@ -120,9 +119,7 @@ FieldTable<FollowedZone> followed_zone_fields() {
 
 void write_sweep_csv(const std::filesystem::path& file, const SweepPlan& plan,
                      const std::vector<SweepRow>& rows, int n_threads) {
-  std::vector<std::size_t> all(rows.size());
-  std::iota(all.begin(), all.end(), std::size_t(0));
-  auto columns = key_columns(plan, all);
+  auto columns = key_columns(plan, all_points(plan));
   columns.push_back({"refused", "", refusals(rows)});
   for (auto& column : figure_columns(rows))
     columns.push_back(in_shown_unit({column.name, column.unit, std::move(column.values)}));
@@ -154,15 +151,11 @@ void write_sweep_h5(const std::filesystem::path& file, const SweepPlan& plan,
   AtomicFile whole(file);
   Hdf5Writer out(whole.temporary());
   out.attribute("/", "title", title);
-  for (std::size_t k = 0; k < plan.variations.size(); ++k) {
-    const auto& variation = plan.variations[k];
-    if (is_numeric(plan, k))
-      out.write(named("keys", variation.key),
-                by_point(plan, [&](const SweepPoint& p) { return p.numbers[k]; }), {variation.unit, ""});
-    else
-      out.write(named("keys", variation.key),
-                by_point(plan, [&](const SweepPoint& p) { return p.values[k]; }));
-  }
+  for (const auto& key : key_columns(plan, all_points(plan)))
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&key.cells))
+      out.write(named("keys", key.name), *texts);
+    else if (const auto* numbers = std::get_if<std::vector<double>>(&key.cells))
+      out.write(named("keys", key.name), *numbers, {key.unit, ""});
   for (const auto& column : figure_columns(rows))
     out.write(named("figures", column.name), column.values, {column.unit, ""});
   for (const auto& [name, texts] : text_columns(rows)) out.write(named("texts", name), texts);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstring>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -24,32 +23,25 @@ namespace {
 
 using JournalJson = nlohmann::ordered_json;
 
-constexpr std::size_t digits_of_hash = 32, digits_of_value = 11, bits_of_digit = 6;
+constexpr std::size_t digits_of_hash = 32;
 
-constexpr std::string_view base_64_digits =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-void append_bits(std::string& text, double value) {
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  for (std::size_t i = digits_of_value; i-- > 0;) text += base_64_digits[(bits >> (bits_of_digit * i)) & 63];
+/// The shortest digits that read back to the same number, and a space.
+void append_number(std::string& text, double value) {
+  char digits[32];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr) += ' ';
 }
 
-/// The value of each character as a digit.
-std::array<std::uint8_t, 256> digit_values() {
-  std::array<std::uint8_t, 256> values{};
-  for (std::size_t d = 0; d < base_64_digits.size(); ++d)
-    values[std::uint8_t(base_64_digits[d])] = std::uint8_t(d);
-  return values;
-}
-
-double value_of_bits(std::string_view text) {
-  static const auto values = digit_values();
-  std::uint64_t bits = 0;
-  for (const char c : text) bits = (bits << bits_of_digit) | values[std::uint8_t(c)];
-  double value = 0;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
+/// Up to the first word that is none.
+std::vector<double> numbers_in(std::string_view text) {
+  std::vector<double> numbers;
+  const char *at = text.data(), *const end = at + text.size();
+  for (double value = 0; at != end; ++at) {
+    const auto [after, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || after == end || *after != ' ') break;
+    numbers.push_back(value);
+    at = after;
+  }
+  return numbers;
 }
 
 /// What a zone's numbers are, in the order of the journal.
@@ -61,9 +53,9 @@ auto numbers_of(Zone& z) {
 }
 
 JournalJson zone_json(const SweptZone& zone) {
-  std::string bits;
-  for (const double* number : numbers_of(zone)) append_bits(bits, *number);
-  return {zone.body, zone.feature, zone.place, zone.instant, zone.n_nodes, bits};
+  std::string numbers;
+  for (const double* number : numbers_of(zone)) append_number(numbers, *number);
+  return {zone.body, zone.feature, zone.place, zone.instant, zone.n_nodes, numbers};
 }
 
 SweptZone zone_of(const JournalJson& json) {
@@ -73,11 +65,8 @@ SweptZone zone_of(const JournalJson& json) {
   zone.place = json.at(2);
   zone.instant = json.at(3);
   zone.n_nodes = json.at(4);
-  std::string_view bits = json.at(5).get_ref<const std::string&>();
-  for (double* number : numbers_of(zone)) {
-    *number = value_of_bits(bits.substr(0, digits_of_value));
-    bits.remove_prefix(digits_of_value);
-  }
+  const auto numbers = numbers_in(json.at(5).get_ref<const std::string&>());
+  for (std::size_t i = 0; i < numbers_of(zone).size(); ++i) *numbers_of(zone)[i] = numbers.at(i);
   return zone;
 }
 
@@ -101,45 +90,7 @@ bool write_all(int file, std::string_view text) {
   return true;
 }
 
-/// A line "N VALUES [SETTINGS, TEXTS]", or "N VALUES [SETTINGS, TEXTS, ZONES]".
-struct RowLine {
-  std::size_t columns = 0;
-  std::string_view values;
-  std::vector<std::string> settings, texts;
-  std::vector<SweptZone> zones;
-};
-
-/// None of any other line.
-std::optional<RowLine> row_line(std::string_view text) {
-  RowLine line;
-  const auto end = text.data() + text.size();
-  const auto [number_end, error] = std::from_chars(text.data(), end, line.columns);
-  if (error != std::errc() || number_end == end || *number_end != ' ') return std::nullopt;
-  text.remove_prefix(std::size_t(number_end - text.data()) + 1);
-  const auto space = text.find(' ');
-  if (space == std::string_view::npos) return std::nullopt;
-  line.values = text.substr(0, space);
-  const auto json = JournalJson::parse(text.substr(space + 1), nullptr, false);
-  if (!json.is_array() || json.size() < 2) return std::nullopt;
-  line.settings = json[0].get<std::vector<std::string>>();
-  line.texts = json[1].get<std::vector<std::string>>();
-  if (json.size() > 2)
-    for (const auto& zone : json[2]) line.zones.push_back(zone_of(zone));
-  return line;
-}
-
 }  // namespace
-
-bool SweepJournal::Columns::are_of(const SweepRow& row) const {
-  const auto is_figure = [](const auto& column, const SweepFigures::Item& figure) {
-    return column.first == figure.name && column.second == figure.unit;
-  };
-  const auto is_text = [](const std::string& column, const auto& text) { return column == text.first; };
-  const bool has_figures =
-      latest.share_names(row.figures) ||
-      std::equal(figures.begin(), figures.end(), row.figures.begin(), row.figures.end(), is_figure);
-  return has_figures && std::equal(texts.begin(), texts.end(), row.texts.begin(), row.texts.end(), is_text);
-}
 
 SweepJournal::SweepJournal(std::filesystem::path file, std::string key)
     : file_(std::move(file)), key_(text_hash(key)) {}
@@ -164,8 +115,8 @@ std::string SweepJournal::lines_of(const SweepPlan& plan, const std::vector<std:
     if (rows[p].refused.empty())
       lines.append(plan.points[p], rows[p]);
     else
-      lines.pending_ += line_of('!' + JournalJson::array({plan.points[p].settings, rows[p].refused})
-                                          .dump(-1, ' ', false, JournalJson::error_handler_t::replace));
+      lines.pending_ += line_of(JournalJson::array({plan.points[p].settings, rows[p].refused})
+                                    .dump(-1, ' ', false, JournalJson::error_handler_t::replace));
   return std::move(lines.pending_);
 }
 
@@ -178,40 +129,32 @@ std::vector<std::optional<SweepRow>> SweepJournal::read_rows(std::istream& in, c
   std::vector<std::optional<SweepRow>> rows(plan.points.size());
   std::map<std::vector<std::string>, std::vector<std::size_t>> points;  // by settings
   for (std::size_t p = 0; p < rows.size(); ++p) points[plan.points[p].settings].push_back(p);
-  std::map<std::size_t, Columns> columns;  // by number: the line of some may be damaged
+  std::map<double, SweepFigures> columns;  // by number: the line of some may be damaged
   std::string line;
   while (std::getline(in, line)) {
     const auto text = checked(line);
-    if (text.empty()) continue;
-    if (text.front() == '!') {
-      const auto json = JournalJson::parse(text.substr(1), nullptr, false);
-      if (!json.is_array() || json.size() != 2) continue;
-      if (const auto of_settings = points.find(json[0]); of_settings != points.end())
-        for (const auto p : of_settings->second) rows[p] = SweepRow{json[1], {}, {}};
-      continue;
-    }
-    if (text.front() == '{') {
-      const auto json = JournalJson::parse(text, nullptr, false);
-      if (json.is_object() && json.contains("columns"))
-        columns[json.at("columns")] = {json.at("figures"), json.at("texts"), {}};
-      continue;
-    }
-    const auto parts = row_line(text);
-    if (!parts) continue;
-    const auto own = columns.find(parts->columns);
-    const auto of_settings = points.find(parts->settings);
-    if (own == columns.end() || of_settings == points.end()) continue;
-    auto& [figures, texts, latest] = own->second;
-    if (parts->values.size() != digits_of_value * figures.size() || parts->texts.size() != texts.size())
-      continue;
+    const auto begin = std::min(text.find_first_of("[{"), text.size());
+    const auto json = JournalJson::parse(text.substr(begin), nullptr, false);
+    if (json.is_object() && json.contains("columns"))
+      for (const auto& figure : json.at("figures"))
+        columns[json.at("columns")].add({figure.at(0).get_ref<const std::string&>()},
+                                        figure.at(1).get_ref<const std::string&>(), 0);
+    if (!json.is_array() || json.size() < 2) continue;
+    const auto of_settings = points.find(json[0]);
+    if (of_settings == points.end()) continue;
     SweepRow row;
-    row.figures = SweepFigures::like(latest);
-    for (std::size_t f = 0; f < figures.size(); ++f)
-      row.figures.add({figures[f].first}, figures[f].second,
-                      value_of_bits(parts->values.substr(digits_of_value * f, digits_of_value)));
-    if (!latest.share_names(row.figures)) latest = row.figures;
-    for (std::size_t t = 0; t < texts.size(); ++t) row.texts.emplace_back(texts[t], parts->texts[t]);
-    row.zones = parts->zones;
+    if (json[1].is_string()) {
+      row.refused = json[1];
+    } else {
+      const auto numbers = numbers_in(text.substr(0, begin));
+      const auto own = columns.find(numbers.empty() ? 0 : numbers[0]);
+      if (own == columns.end() || own->second.size() + 1 != numbers.size()) continue;
+      row.figures = SweepFigures::like(own->second);
+      for (std::size_t f = 0; f + 1 < numbers.size(); ++f)
+        row.figures.add({own->second[f].name}, own->second[f].unit, numbers[f + 1]);
+      row.texts = json[1].get<decltype(row.texts)>();
+      for (std::size_t z = 2; z < json.size(); ++z) row.zones.push_back(zone_of(json[z]));
+    }
     for (const auto p : of_settings->second) rows[p] = row;
   }
   return rows;
@@ -226,38 +169,23 @@ void SweepJournal::begin(const SweepPlan& plan, const std::vector<std::optional<
   pending_.clear();
 }
 
-std::size_t SweepJournal::number_of_columns(const SweepRow& row) {
-  const auto same =
-      std::find_if(columns_.begin(), columns_.end(), [&](const Columns& c) { return c.are_of(row); });
-  if (same != columns_.end()) {
-    if (!same->latest.share_names(row.figures)) same->latest = row.figures;
-    return std::size_t(same - columns_.begin()) + 1;
-  }
-  Columns columns;
-  for (const auto figure : row.figures) columns.figures.emplace_back(figure.name, figure.unit);
-  for (const auto& text : row.texts) columns.texts.push_back(text.first);
-  columns_.push_back(std::move(columns));
-  JournalJson json;
-  json["columns"] = columns_.size();
-  json["figures"] = columns_.back().figures;
-  json["texts"] = columns_.back().texts;
-  pending_ += line_of(json.dump());
-  return columns_.size();
+std::size_t SweepJournal::number_of_columns(const SweepFigures& figures) {
+  if (!columns_.empty() && figures.share_names(latest_)) return latest_number_;
+  auto names = JournalJson::array();
+  for (const auto figure : figures) names.push_back({figure.name, figure.unit});
+  const auto [entry, is_new] = columns_.emplace(names.dump(), columns_.size() + 1);
+  if (is_new) pending_ += line_of(JournalJson({{"columns", entry->second}, {"figures", names}}).dump());
+  latest_ = figures;
+  return latest_number_ = entry->second;
 }
 
 void SweepJournal::append(const SweepPoint& point, const SweepRow& row) {
   if (!row.refused.empty()) return;
-  std::vector<std::string> texts;
-  for (const auto& text : row.texts) texts.push_back(text.second);
-  std::string line = std::to_string(number_of_columns(row)) + ' ';
-  line.reserve(line.size() + digits_of_value * row.figures.size());
-  for (const auto figure : row.figures) append_bits(line, figure.value);
-  auto lists = JournalJson::array({point.settings, texts});
-  if (!row.zones.empty()) {
-    lists.push_back(JournalJson::array());
-    for (const auto& zone : row.zones) lists.back().push_back(zone_json(zone));
-  }
-  pending_ += line_of(line + ' ' + lists.dump());
+  std::string line = std::to_string(number_of_columns(row.figures)) + ' ';
+  for (const auto figure : row.figures) append_number(line, figure.value);
+  auto lists = JournalJson::array({point.settings, row.texts});
+  for (const auto& zone : row.zones) lists.push_back(zone_json(zone));
+  pending_ += line_of(line + lists.dump());
 }
 
 void SweepJournal::flush() {

@@ -3,20 +3,19 @@
 /// Text, a line each with a checksum of its own, so that a line that a kill has cut, or that is damaged, is
 /// computed again, and no other:
 ///   HASH KEY                          the first line: a hash of all that the rows depend on
-///   HASH {"columns": N, "figures": [[NAME, UNIT], ...], "texts": [NAME, ...]}
+///   HASH {"columns": N, "figures": [[NAME, UNIT], ...]}
 ///                                     what the rows below have that refer to it by its number
-///   HASH N VALUES [SETTINGS, TEXTS]   a row: the bits of each figure in eleven digits of base 64, without
-///                                     spaces, then lists of the settings and of the texts, and of the zones
-///                                     where there are any
+///   HASH N VALUES [SETTINGS, TEXTS, ZONE, ...]
+///                                     a row: its figures, then lists
 /// Between processes also
-///   HASH ![SETTINGS, REASON]          a row that was refused
+///   HASH [SETTINGS, REASON]           a row that was refused
 #pragma once
 
 #include <filesystem>
 #include <iosfwd>
+#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "pipelines/study/sweep/sweep_row.h"
@@ -26,7 +25,7 @@ namespace pipelines {
 
 class SweepJournal {
 public:
-  /// @param key  of all that the rows depend on beside their settings
+  /// @param key  key of all that the rows depend on beside their settings
   SweepJournal(std::filesystem::path file, std::string key);
 
   /// Whether a sweep has written a file.
@@ -50,22 +49,15 @@ public:
   static std::vector<std::optional<SweepRow>> rows_of(const std::string& lines, const SweepPlan& plan);
 
 private:
-  /// What rows have.
-  struct Columns {
-    std::vector<std::pair<std::string, std::string>> figures;  ///< names and units
-    std::vector<std::string> texts;                            ///< names
-    SweepFigures latest{};  ///< of a row that had them: most rows share its names
-
-    bool are_of(const SweepRow& row) const;
-  };
-
   static std::vector<std::optional<SweepRow>> read_rows(std::istream& in, const SweepPlan& plan);
-  /// The number of a row's columns, from 1; notes those that are new.
-  std::size_t number_of_columns(const SweepRow& row);
+  /// The number of a row's figures, from 1; notes those that are new.
+  std::size_t number_of_columns(const SweepFigures& figures);
 
   std::filesystem::path file_;
   std::string key_, pending_;
-  std::vector<Columns> columns_;  ///< noted in the file
+  std::map<std::string, std::size_t> columns_;  ///< noted in the file, names and units as JSON
+  SweepFigures latest_;                         ///< of a row of `latest_number_`: most rows share its names
+  std::size_t latest_number_ = 0;
 };
 
 }  // namespace pipelines

@@ -5,36 +5,41 @@
 #include "pipelines/judge/analysis/governing_stress.h"
 #include "pipelines/loads/channels/load_figures.h"
 #include "pipelines/scene/whole/machine_kind.h"
+#include "pipelines/write/fields/bearing_fields.h"
 
 namespace pipelines {
+namespace {
+
+/// Fields of a result that are figures, or numbers without a unit of their own, as "<kind><name>.<key>".
+/// @param unit  of such numbers
+template <typename Row>
+void add_numbers(SweepFigures& figures, std::string_view kind, std::string_view name,
+                 const FieldTable<Row>& fields, const Row& of, const std::string& unit = "") {
+  for (const auto& field : fields) {
+    if (field.quantity.shape == Shape::text || field.quantity.shape == Shape::unit) continue;
+    const bool has_unit = *field.quantity.unit != '\0';
+    const auto value = field.value(of);
+    if (value.is_object())
+      figures.add({kind, name, ".", field.key}, value.at("unit").template get_ref<const std::string&>(),
+                  value.at("value").template get<double>());
+    else if (value.is_number() && !has_unit)
+      figures.add({kind, name, ".", field.key}, unit, value.template get<double>());
+  }
+}
+
+}  // namespace
 
 void add_load_figures(SweepRow& row, const Scene& scene, const kinetics::LoadHistory& loads,
                       const std::vector<BearingResult>& bearings) {
-  const MachineKind& kind = kind_of(scene.machine);
-  for (const auto& of : load_figures(scene, loads)) {
-    const auto add = [&](const char* what, double value) {
-      row.figures.add({"loads.", of.name, what}, of.unit, value);
-    };
-    add(".max", of.statistics.max);
-    add(".min", of.statistics.min);
-    add(".mean", of.statistics.mean);
-    add(".rms", of.statistics.rms);
-    add(".first", of.first);
-  }
+  static const auto of_loads = load_fields();
+  static const auto of_bearings = joined(bearing_fields(), bearing_answer_fields());
+  for (const auto& figure : load_figures(scene, loads))
+    add_numbers(row.figures, "loads.", figure.name, of_loads, figure, figure.unit);
   int mode = 0;
-  for (const double w : kind.natural_frequencies_rad_s(scene.machine))
+  for (const double w : kind_of(scene.machine).natural_frequencies_rad_s(scene.machine))
     row.figures.add({"torsion.natural_frequency_", std::to_string(++mode)}, "rad/s", w);
-  for (const auto& bearing : bearings) {
-    const auto add = [&](const char* figure, const char* unit, const std::optional<double>& value) {
-      if (value) row.figures.add({"bearings.", bearing.name, figure}, unit, *value);
-    };
-    add(".equivalent_load", "N", bearing.equivalent_load_N);
-    add(".largest_load", "N", bearing.largest_load_N);
-    if (bearing.life) add(".L10h", "h", bearing.life->hours);
-    add(".modified_life", "h", bearing.answers.modified_life_h);
-    add(".required_rating", "N", bearing.answers.required_rating_N);
-    add(".static_safety", "", bearing.answers.static_safety);
-  }
+  for (const auto& bearing : bearings)
+    add_numbers(row.figures, "bearings.", bearing.name, of_bearings, bearing);
   if (const auto n = scene.warnings.size() + loads.warnings.size(); n > 0)
     row.figures.add({"loads", ".warnings"}, "", double(n));
 }

@@ -18,7 +18,7 @@ struct SweepRow {
   std::string refused;  ///< why the point could not be computed; empty: it was
   SweepFigures figures;
   std::vector<std::pair<std::string, std::string>> texts;  ///< "bodies.shaft.governing.place" and the like
-  std::vector<SweptZone> zones = {};                       ///< of all bodies, where they are asked for
+  std::vector<SweptZone> zones = {};                       ///< zones of all bodies, where they are asked for
 
   /// NaN if there is none.
   double figure(const std::string& name) const { return figures.value(name); }

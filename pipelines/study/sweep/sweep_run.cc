@@ -181,7 +181,8 @@ public:
 private:
   int n_threads() const { return threads(options_.n_threads); }
 
-  /// As many as a solution serves, so that no solution's points are lost with the next one.
+  /// Points whose bodies are solved together: as many as a solution serves, so that no solution's points are
+  /// lost with the next one.
   std::size_t points_of_bodies_at_once() const {
     std::size_t n_solutions = 1;
     for (const auto& body : bodies_.forecast()) n_solutions = std::max(n_solutions, body.n_solutions);
@@ -229,7 +230,7 @@ private:
     }
   }
 
-  /// @param names  of the rows before, to share
+  /// @param names  names of the rows before, to share
   SweepRow loads_row(std::size_t p, SweepFigures& names) const {
     SweepRow row;
     row.refused = refused_[p];
@@ -252,7 +253,7 @@ private:
 
   void add_loads(SweepRow& row, std::size_t p, bool loads_follow) const {
     Scene scene = read(p, loads_follow);
-    std::vector<BearingScene> bearings;  // those at a port of a body need the body
+    std::vector<BearingScene> bearings;  // bearings at a port of a body need the body
     if (needs_bodies_) scene.machine = agree_masses(scene, *meshes_.at(bodies_.combination(p))).machine;
     auto loads = load_stage(scene, scene.machine);
     for (const auto& bearing : scene.bearings)
@@ -270,11 +271,11 @@ private:
   std::vector<std::string> refused_;                ///< by point: why it cannot be read
   std::vector<char> is_own_;                        ///< by point; empty: all are
   SweptBodies bodies_;
-  std::vector<BodyScene> accepted_;  ///< of the first point that can be read
-  // By what a point's bodies share, SweptBodies::combination.
+  std::vector<BodyScene> accepted_;  ///< bodies of the first point that can be read
+  // Meshes and refusals by what a point's bodies share, SweptBodies::combination.
   std::map<std::vector<std::size_t>, std::shared_ptr<const std::vector<MeshedBody>>> meshes_;  ///< for masses
   std::map<std::vector<std::size_t>, std::string> refused_bodies_;  ///< why; empty: not
-  std::vector<SweepFigures> names_;                                 ///< of figures, by thread: empty rows
+  std::vector<SweepFigures> names_;  ///< names of figures, by thread: empty rows
   bool needs_bodies_ = true, has_chosen_effects_ = false;
 };
 

@@ -17,7 +17,7 @@
 namespace pipelines {
 
 /// Told of points that are new, several at once.
-/// @param rows  of all points
+/// @param rows  rows of all points
 using SweepListener =
     std::function<void(const std::vector<std::size_t>& points, const std::vector<SweepRow>& rows)>;
 
@@ -34,7 +34,7 @@ public:
   /// order of the points that first have them.
   /// @param n_shares  how many groups there shall be where no mesh is shared
   std::vector<std::size_t> groups(int n_shares) const;
-  /// Only these points are computed; run() leaves the rows of others as they are. Called once, before it.
+  /// Computes only these points; run() leaves the rows of others as they are. Called once, before it.
   /// @param is_own  by point
   void keep_points(const std::vector<char>& is_own);
   /// Meshes that run() has searched beside those of the forecast, for points known less well.

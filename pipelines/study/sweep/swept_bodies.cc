@@ -22,7 +22,7 @@ Scene with_masses(Scene scene, const Loaded& loaded) {
 }
 
 /// Largest torsional stress of a parametric shaft, with its error as a run states it.
-/// @param searched  of a body under other loads: the one whose responses it has
+/// @param searched  the analysis of a body under other loads whose responses it has
 std::optional<LargestTorsion> torsion_of(Judged& analysis, const Judged& searched) {
   if (analysis.scene.shaft() == nullptr) return std::nullopt;
   if (!analysis.diagrams) {
@@ -147,7 +147,8 @@ void SweptBodies::forget_solutions_of(std::size_t p) {
     if (!serves_others(p, b)) solution_of(p, b).designs.clear();
 }
 
-/// Which of a point's bodies is at fault a refusal does not say: it holds for points that combine the same.
+/// Designs the bodies of a point. A refusal does not say which of them is at fault: it holds for points that
+/// combine the same.
 /// @return why not; empty: all bodies of the point have a design
 std::string SweptBodies::design_bodies(std::size_t p, StageClock& clock) {
   auto& refused = refused_[of_point_[p]];

@@ -21,7 +21,7 @@ public:
   using ReadPoint = std::function<Scene(std::size_t point)>;
 
   /// @param options  outlive this
-  /// @param names    of the points, by their settings
+  /// @param names    names of the points, by their settings
   SweptBodies(const SweepOptions& options, ReadPoint read, std::vector<std::string> names);
 
   /// Points are sorted in in their order, all of them before any is run.
@@ -29,9 +29,9 @@ public:
   std::vector<SweepForecast::Body> forecast() const;
   /// Meshes that improve() has searched.
   std::size_t n_improved_meshes() const { return n_improved_; }
-  /// By body the number of a point's mesh. Empty if the point was not sorted in.
+  /// Number of a point's mesh by body. Empty if the point was not sorted in.
   std::vector<std::size_t> meshes(std::size_t p) const;
-  /// As if it had not been sorted in.
+  /// Leaves a point as if it had not been sorted in.
   void leave_out(std::size_t p) { of_point_[p].clear(); }
   /// What a point shares: by body the number of its solution. Empty if the point was not sorted in.
   const std::vector<std::size_t>& combination(std::size_t p) const { return of_point_[p]; }
@@ -59,7 +59,7 @@ private:
   };
   struct SweptBody {
     std::string name;
-    std::vector<Shape> shapes;  ///< those that are searched twice stand here twice
+    std::vector<Shape> shapes;  ///< shapes; those that are searched twice stand here twice
     std::vector<Solution> solutions;
   };
   /// Copies of analyses that a thread works on.
@@ -92,7 +92,7 @@ private:
   std::vector<SweptBody> bodies_;
   std::map<std::vector<std::size_t>, std::string> refused_;  ///< by combination: why; empty: not
   std::size_t n_improved_ = 0;
-  int n_folders_ = 0;  ///< of this rank
+  int n_folders_ = 0;  ///< folders of this rank
   std::mutex cheap_;   ///< cheap models run one at a time: fem's threads are theirs
 };
 

@@ -22,7 +22,7 @@ bool boxes_meet(const SweptZone& a, const SweptZone& b) {
   return true;
 }
 
-/// Of all points, by key: numbers as shares of their range, other values as their place among them.
+/// Keys of all points: numbers as shares of their range, other values as their place among them.
 std::vector<std::vector<double>> shares_of_keys(const SweepPlan& plan) {
   std::vector<std::vector<double>> shares(plan.points.size());
   for (std::size_t k = 0; k < plan.variations.size(); ++k) {

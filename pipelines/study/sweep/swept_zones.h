@@ -19,15 +19,16 @@ struct SweepRow;
 struct SweptZone : ZoneFigures {
   std::string body;
   std::array<double, 3> low_m{}, high_m{};  ///< the box around its nodes
-  std::int64_t instant = 0;                 ///< of the peak
+  std::int64_t instant = 0;                 ///< instant of the peak
 };
 
-/// Descending peak.
+/// Zones of a body by descending peak.
 std::vector<SweptZone> swept_zones(const Judged& analysis);
 
-/// Which zones of different points are one. A zone is that of the nearest earlier point (keys in shares of
-/// their range) whose box meets its own, nearest peaks first; where none is left, that of any earlier point,
-/// the latest first; else a new one. Meshes may differ from point to point.
+/// Numbers zones so that those of different points that are one have one number. A zone is that of the
+/// nearest earlier point (keys in shares of their range) whose box meets its own, nearest peaks first; where
+/// none is left, that of any earlier point, the latest first; else a new one. Meshes may differ from point to
+/// point.
 /// @return by point and zone: its number, from 1 within its body, in the order of largest peaks
 std::vector<std::vector<int>> follow_zones(const SweepPlan& plan, const std::vector<SweepRow>& rows);
 

@@ -43,13 +43,14 @@ public:
   /// Whether its unit responses are those of all these loads.
   bool covers(const BodyLoads& loads) const { return served_->missing(loads).empty(); }
 
-  /// Of which point the mesh was searched, as settings: "machine.drive.speed=1200 rpm"; "the scene" as it is.
+  /// Settings of the point that the mesh was searched for: "machine.drive.speed=1200 rpm"; "the scene" as it
+  /// is.
   const std::string& searched_for() const { return searched_for_; }
 
   /// The body under the loads of another point: leading stresses with their errors.
   /// @param analysis  a copy of analysis(), used again and again
-  /// @param body      of the point, with the mesh entered
-  /// @param loads     that it covers
+  /// @param body      the point's body, with the mesh entered
+  /// @param loads     loads that it covers
   /// @param zones     null: none
   Judged at_point(Judged analysis, const BodyScene& body, BodyLoads loads, const ZoneRule* zones) const;
 

@@ -14,7 +14,7 @@ using Eigen::Index;
 /// A reach holds up to rounding, which the slack covers.
 constexpr double slack = 1 + 1e-9;
 
-/// Of the places' nodes, those that are walked at once.
+/// Nodes of each place in the first walk, and nodes that are walked at once.
 constexpr std::size_t first_of_each_place = 4, at_once = 512;
 
 /// Walks some nodes and enters them into an envelope of all.
@@ -96,7 +96,7 @@ private:
   double best_Pa_;
 };
 
-/// In pieces: their unit stresses are copied.
+/// Walks all nodes, in pieces: their unit stresses are copied.
 void walk_all(std::vector<std::int32_t> nodes, Walker& walker) {
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());

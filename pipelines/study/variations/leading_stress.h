@@ -23,9 +23,10 @@ public:
   /// @param known  with the whole envelope
   explicit LeadingStress(const Judged& known);
 
-  /// Of each feature the node with the largest von Mises stress outside the exclusion distances, and of the
-  /// inside where it is at least nine tenths of that (place_stress.h), as a whole envelope has them, bit for
-  /// bit. Other nodes are as well or are zero. No largest principal stress, no shares of effects elsewhere.
+  /// Takes for each feature the node with the largest von Mises stress outside the exclusion distances, and
+  /// for the inside where it is at least nine tenths of that (place_stress.h), as a whole envelope has them,
+  /// bit for bit. Other nodes are as well or are zero. No largest principal stress, no shares of effects
+  /// elsewhere.
   /// @param loads  with the channels of the responses
   Envelope envelope(const ChannelHistory& loads, const fem::UnitResponses& responses) const;
 
@@ -39,7 +40,7 @@ private:
 
   std::vector<std::vector<std::int32_t>> places_;  ///< nodes by feature, those on seams in several
   std::vector<std::int32_t> inside_;
-  Eigen::ArrayXXd channels_;    ///< of the known case, K x instants
+  Eigen::ArrayXXd channels_;    ///< channels of the known case, K x instants
   Eigen::ArrayXd known_Pa_;     ///< its envelope, per node
   std::vector<char> excluded_;  ///< per node: belongs to no place and no zone
   Eigen::MatrixXd unit_Pa_;     ///< von Mises stress of the unit stresses, nodes x K

@@ -7,7 +7,8 @@
 
 namespace pipelines {
 
-/// Not changed once it has been shared, but for the places by name, which are found when they are asked for.
+/// Names of figures. They do not change once they are shared, but for the places by name, which are found
+/// when they are asked for.
 class SweepFigures::Names {
 public:
   struct Column {

@@ -13,24 +13,25 @@ namespace pipelines {
 
 struct SweepOptions {
   std::filesystem::path scene;
-  TomlNode tree;                      ///< of the scene
-  std::vector<std::string> settings;  ///< of all points: --set
+  TomlNode tree;                      ///< tree of the scene
+  std::vector<std::string> settings;  ///< settings of all points: --set
   std::filesystem::path directory;    ///< meshes and unit responses go into its folder bodies
-  int rank = 0;                       ///< of MPI: each has subfolders of its own there
+  int rank = 0;                       ///< rank of MPI: each has subfolders of its own there
   int n_threads = 0;                  ///< 0: all cores
   bool loads_only = false;
   bool fresh = false;
-  bool zones = false;            ///< of every point
-  RequestedAccuracy accuracy{};  ///< of every mesh that is searched
+  bool zones = false;            ///< zones of every point, too
+  RequestedAccuracy accuracy{};  ///< accuracy of every mesh that is searched
 };
 
 /// What a sweep will take, before it takes it.
 struct SweepForecast {
-  std::size_t n_points = 0;  ///< that can be read
+  std::size_t n_points = 0;  ///< points that can be read
   struct Body {
     std::string name;
-    std::size_t n_meshes = 0;     ///< of different shape
-    std::size_t n_solutions = 0;  ///< of different material or springs, those on new meshes included
+    std::size_t n_meshes = 0;  ///< meshes of different shape
+    /// Solutions of different material or springs, those on new meshes included.
+    std::size_t n_solutions = 0;
   };
   std::vector<Body> bodies;  ///< none: the load stage alone
 };

@@ -74,7 +74,7 @@ void add_one_at_a_time(SweepPlan& plan) {
 class Draws {
 public:
   explicit Draws(std::uint64_t seed) : bits_(seed) {}
-  /// In [0, 1).
+  /// A random number in [0, 1).
   double share() { return double(bits_() >> 11) * 0x1p-53; }
   std::vector<std::size_t> permutation(std::size_t n) {
     std::vector<std::size_t> order(n);

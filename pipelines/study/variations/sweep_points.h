@@ -21,12 +21,11 @@ std::string to_string(SweepDesign design);
 struct SweepRequest {
   std::vector<std::string> vary;  ///< "KEY = VALUES" each (variation.h)
   SweepDesign design = SweepDesign::grid;
-  int n_points = 0;        ///< of a Latin hypercube
-  std::uint64_t seed = 1;  ///< of a Latin hypercube: another seed draws other points
+  int n_points = 0;        ///< points of a Latin hypercube
+  std::uint64_t seed = 1;  ///< seed of a Latin hypercube: another seed draws other points
   bool zones = false;      ///< the stress zones of every point, too
 };
 
-/// One point.
 struct SweepPoint {
   std::vector<std::string> values;    ///< by variation; kept_value: as the scene has it
   std::vector<double> numbers;        ///< by variation, in its unit; NaN where the value is no number

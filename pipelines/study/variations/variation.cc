@@ -61,7 +61,7 @@ std::vector<std::string> items_of(const std::string& text) {
   return items;
 }
 
-/// Without brackets that enclose the whole; of a list of lists the outer ones.
+/// The text without brackets that enclose the whole; of a list of lists without the outer ones.
 std::string without_brackets(const std::string& text) {
   if (text.size() < 2 || text.front() != '[' || text.back() != ']') return text;
   int depth = 0;

@@ -7,7 +7,7 @@
 
 namespace pipelines {
 
-/// From `first` to `last`, in the variation's unit.
+/// Values from `first` to `last`, in the variation's unit.
 struct ValueRange {
   double first = 0, last = 0;
   bool is_logarithmic = false;  ///< equal ratios instead of equal steps; both ends are positive
@@ -15,8 +15,8 @@ struct ValueRange {
 
 struct Variation {
   std::string key;  ///< as in --set: dotted, items of arrays counted from 1
-  std::vector<std::string>
-      values;                   ///< as in --set; "kept": as the scene has it. Empty: a range without number
+  /// As in --set; "kept": as the scene has it. Empty: a range without number.
+  std::vector<std::string> values;
   std::vector<double> numbers;  ///< the values, in `unit`; empty: they are no numbers of one unit
   std::string unit;             ///< as written; empty: none
   std::optional<ValueRange> range;

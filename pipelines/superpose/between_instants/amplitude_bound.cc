@@ -20,21 +20,21 @@ using Matrix5 = Eigen::Matrix<double, 5, 5>;
 /// Powers of the half axis by which lines are weighed.
 constexpr std::array<double, 3> powers = {1, 1.5, 2};
 
-/// Of the largest channel: what rows may leave; nothing beside the slack of searches.
+/// Share of the largest channel that rows may leave; nothing beside the slack of searches.
 constexpr double same_row = 1e-10;
 
-/// Of these alone copies are made.
+/// Places that are copied at once.
 constexpr Index places_at_once = 4096;
 
 /// Places from knot to knot, by level.
 constexpr std::array<Index, AmplitudeBound::n_levels> places_per_knot = {16, 4};
-/// Of the largest cycle at the knots.
+/// Slack as a share of the largest cycle at the knots.
 constexpr double slack_at_knots = 1e-4;
 
 /// An eigenvalue in single steps of rounding.
 constexpr double rounding = 1e-12;
 
-/// Of each stress.
+/// Von Mises stress of each column.
 Eigen::VectorXd von_mises_of_columns(const UnitStresses& stress_Pa) {
   return deviatoric_coordinates(stress_Pa).matrix().colwise().norm().transpose();
 }

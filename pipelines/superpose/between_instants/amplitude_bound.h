@@ -31,7 +31,7 @@ struct StressBall {
   double mean_Pa = 0;  ///< von Mises stress of the mean over the cycle
 };
 
-/// Of all stresses of a course no two differ by more than twice `amplitude_Pa`.
+/// No two stresses of a course differ by more than twice `amplitude_Pa`.
 struct AmplitudeInBall {
   StressBall ball;
   double amplitude_Pa = 0;
@@ -39,15 +39,15 @@ struct AmplitudeInBall {
 
 class AmplitudeBound {
 public:
-  /// Of the stresses at all places of the course.
-  /// @param size  of the stress that one unit of each channel brings at most [Pa]
+  /// Takes the stresses at all places of the course.
+  /// @param size  largest stress that one unit of each channel brings [Pa]
   AmplitudeBound(const FactorCourse& course, const Eigen::ArrayXd& size);
 
-  /// @param unit_Pa  of the place, a column for each channel
+  /// @param unit_Pa  unit stresses of the place, a column for each channel
   StressBall about_mean(const UnitStresses& unit_Pa) const;
 
-  /// From every few of the places. Level 0 asks for a sixteenth of the time of stress_of and its largest
-  /// cycle, level 1 for a quarter, and is closer.
+  /// Bound from every few of the places. Level 0 asks for a sixteenth of the time of stress_of and its
+  /// largest cycle, level 1 for a quarter, and is closer.
   /// @param level  below n_levels
   AmplitudeInBall at_knots(const UnitStresses& unit_Pa, std::size_t level) const;
   static constexpr std::size_t n_levels = 2;
@@ -58,18 +58,18 @@ public:
   StressCourse stress_of(const UnitStresses& unit_Pa, const FactorCourse& course) const;
 
 private:
-  /// Every few of the places.
+  /// Rows at every few of the places.
   struct Knots {
     Eigen::MatrixXd rows;      // as rows_, at these places
-    Eigen::VectorXd off_line;  // of each row: by how much it leaves straight lines between them at most
+    Eigen::VectorXd off_line;  // largest distance of each row from straight lines between them
   };
   static Knots knots_of(const Eigen::MatrixXd& rows, Eigen::Index every);
   void take_rows(const Eigen::ArrayXXd& fine, const Eigen::MatrixXd& triangle, const Eigen::VectorXd& scale);
 
-  Eigen::VectorXd mean_;     // of each channel
+  Eigen::VectorXd mean_;     // mean of each channel
   Eigen::MatrixXcd lines_;   // channels x lines
-  Eigen::ArrayXd rest_;      // of each channel: what mean and lines leave, at any place
-  Eigen::MatrixXd rows_;     // of some channels without their means, and ones: rows x places
+  Eigen::ArrayXd rest_;      // what mean and lines leave of each channel, at any place
+  Eigen::MatrixXd rows_;     // some channels without their means, and ones: rows x places
   Eigen::MatrixXd of_rows_;  // channels x rows
   std::array<Knots, n_levels> knots_;
 };

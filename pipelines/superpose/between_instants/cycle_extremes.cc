@@ -17,7 +17,7 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Index;
 
-/// Of the largest squared norm: what intervals are not looked into for.
+/// Share of the largest squared norm for which intervals are not looked into.
 constexpr double worth_halving = 1e-13;
 
 /// A trigonometric polynomial  p(x) = Re sum_h c_h exp(j h x), and bounds of its derivatives.
@@ -103,7 +103,7 @@ void search_between(const Polynomial& polynomial, const Crest& a, const Crest& b
 
 /// The squared norm of rows of lines, at least 4 times per period of its highest line, and its own lines.
 struct SquaredNorm {
-  Eigen::ArrayXd at;  ///< of 2 pi i / size
+  Eigen::ArrayXd at;  ///< values at 2 pi i / size
   Eigen::ArrayXcd lines;
 };
 
@@ -172,7 +172,7 @@ private:
   bool closed_;
 };
 
-/// At first + place, of the polynomial through the instants from `first` on.
+/// Norm at first + place, of the polynomial through the instants from `first` on.
 double norm_of_piece(const Course& course, Index first, double place) {
   Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(course.n_rows());
   for (Index i = 0; i < n_piece; ++i) {

@@ -14,19 +14,19 @@ Eigen::Array<double, 5, Eigen::Dynamic> deviatoric_coordinates(
 
 /// The largest 2-norm of a curve, and what it may be beyond that.
 struct CycleExtreme {
-  double value = 0;       ///< of the curve interpolated
+  double value = 0;       ///< largest value of the curve interpolated
   double unresolved = 0;  ///< by how much the true one may exceed it; 0: the instants resolve the curve
   double instant = 0;     ///< where it is: i + share of the step to the next one
 };
 
-/// Of the trigonometric polynomial of the lines: its squared norm is one of twice the degree, whose largest
-/// value is found to rounding. Intervals where bounds of the derivatives leave room for a larger one are
-/// halved until they do not, or are concave; there Newton's iteration finds the crest.
-/// @param spectrum  of at most `most_lines` lines
+/// Extreme of the trigonometric polynomial of the lines: its squared norm is one of twice the degree, whose
+/// largest value is found to rounding. Intervals where bounds of the derivatives leave room for a larger one
+/// are halved until they do not, or are concave; there Newton's iteration finds the crest.
+/// @param spectrum  at most `most_lines` lines
 CycleExtreme extreme_of_polynomial(const FactorSpectrum& spectrum);
 inline constexpr Eigen::Index most_lines = 2048;
 
-/// Of polynomials through eight instants around each interval. What they leave unresolved is twice
+/// Extreme of polynomials through eight instants around each interval. What they leave unresolved is twice
 /// what eight instants at twice the distance miss the one in their middle by, around the interval where that
 /// matters most. A window whose ends do not meet is not taken as a cycle: polynomials near its ends are of
 /// its own instants.

@@ -19,13 +19,14 @@ using Eigen::ArrayXXcd;
 using Eigen::ArrayXXd;
 using Eigen::Index;
 
-/// Of the largest channel: kinetics' angles over a thousand turns are off by 1e-12.
+/// Share of the largest channel below which lines are rounding: kinetics' angles over a thousand turns are
+/// off by 1e-12.
 constexpr double no_line_of_course = 1e-12;
-/// Of the largest channel: what a polynomial may leave unresolved. Steps leave more, kinks less from some
-/// 300 instants on.
+/// Share of the largest channel that a polynomial may leave unresolved. Steps leave more, kinks less from
+/// some 300 instants on.
 constexpr double most_unresolved = 0.01;
-/// Of the largest channel: the highest harmonics that are smaller in sum ask for no places; others for so
-/// many in a period, which polynomials through eight of them need.
+/// Share of the largest channel up to which the highest harmonics, in sum, ask for no places; others ask for
+/// so many in a period, which polynomials through eight of them need.
 constexpr double no_places_for = 1e-4, least_per_period = 8;
 /// is_closed looks at polynomials through four instants on either side.
 constexpr Index least_to_be_closed = 16;
@@ -78,7 +79,7 @@ FactorCourse::FactorCourse(ArrayXXd values, const ArrayXd& size, double per_peri
   take_places();
 }
 
-/// By the inverse transform of the spectrum, with zeros above it.
+/// Takes the values at the places by the inverse transform of the spectrum, with zeros above it.
 void FactorCourse::take_places() {
   const ArrayXXcd lines = factor_spectrum(values_, 0).lines;
   const Index n = values_.cols() * per_step_;

@@ -10,8 +10,8 @@ namespace pipelines {
 class FactorCourse {
 public:
   /// @param values      channels x n instants, equidistant over one period
-  /// @param size        of the stress that one unit of each channel brings at most [Pa]: what does not stress
-  ///                    the body does not count
+  /// @param size        size of the stress that one unit of each channel brings at most [Pa]: what does not
+  ///                    stress the body does not count
   /// @param per_period  places in a period of a single harmonic, at least; with several so many that crests
   ///                    are missed by no more of the largest channel
   FactorCourse(Eigen::ArrayXXd values, const Eigen::ArrayXd& size, double per_period);
@@ -41,8 +41,8 @@ public:
   /// @param by_place  rows x (n per_step())
   Eigen::MatrixXd by_instant(const Eigen::MatrixXd& by_place) const;
 
-  /// By how much each channel's part of a crest may exceed what the instants, or the places, tell: the sum
-  /// over its lines of size min(2, (pi h / n)^2 / 2) (factor_spectrum.h, instants_for). A crest of a sum of
+  /// Part of a crest by which each channel may exceed what the instants, or the places, tell: the sum over
+  /// its lines of size min(2, (pi h / n)^2 / 2) (factor_spectrum.h, instants_for). A crest of a sum of
   /// channels is missed by the sum of these at most. Zeros without a polynomial.
   Eigen::ArrayXd missed_by_instants() const { return missed_by(double(values_.cols())); }
   Eigen::ArrayXd missed_by_places() const { return missed_by(double(values_.cols() * per_step_)); }
@@ -60,7 +60,7 @@ private:
 
   Eigen::ArrayXXd values_, fine_;
   Eigen::ArrayXXd line_sizes_;      // channels x orders
-  Eigen::ArrayXd cosines_, sines_;  // of pi j / n
+  Eigen::ArrayXd cosines_, sines_;  // cosines and sines of pi j / n
   Eigen::Index per_step_ = 1;
   bool is_polynomial_ = false, is_resolved_ = false;
   Eigen::ArrayXXcd strongest_;

@@ -15,13 +15,14 @@ namespace {
 using Eigen::ArrayXXd;
 using Eigen::Index;
 
-/// Of the largest factor: kinetics' angles over a thousand turns are off by 1e-12.
+/// Share of the largest factor below which lines are rounding: kinetics' angles over a thousand turns are off
+/// by 1e-12.
 constexpr double rounding_of_factors = 1e-12;
 
 /// More instants than anyone asks for.
 constexpr double most_instants_needed = 1e9;
 
-/// Of one line among n instants. The instants show of the line at n / 2 its cosine alone.
+/// Size of one line among n instants. The instants show of the line at n / 2 its cosine alone.
 double size_of(const Eigen::ArrayXcd& line) {
   return std::sqrt(line.abs2().sum());
 }

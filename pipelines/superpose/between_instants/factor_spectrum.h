@@ -20,8 +20,8 @@ inline constexpr Eigen::Index largest_transformed_prime = 4096;
 struct FactorSpectrum {
   Eigen::Index n_instants = 0;
   Eigen::ArrayXXcd lines;  ///< rows x (highest line above rounding + 1)
-  /// Of the orders from a third of n_instants on, the sum of the lines' sizes: what stands so high tells
-  /// that there is more above; 0 where the instants resolve the series.
+  /// Sum of the sizes of the lines from a third of n_instants on: what stands so high tells that there is
+  /// more above; 0 where the instants resolve the series.
   double upper_third = 0;
   bool is_decaying = true;  ///< the upper third of the spectrum is not more than the third below it
 
@@ -48,10 +48,10 @@ bool can_be_transformed(Eigen::Index n_instants);
 /// Source: Taylor's theorem about a crest, where the derivative is 0.
 double instants_for(const FactorSpectrum& spectrum, double most);
 
-/// Which channel asks for how many instants.
+/// Number of instants that are needed, and the channel that needs them.
 struct InstantsNeeded {
   double n_instants = 1;     ///< over the whole history
-  std::string channel;       ///< that asks for them; empty: none changes
+  std::string channel;       ///< channel that asks for them; empty: none changes
   bool is_resolved = true;   ///< as far as its spectrum tells
   Eigen::Index highest = 0;  ///< its highest order over the history that is not rounding
 };

@@ -18,7 +18,7 @@ using Eigen::Index;
 
 /// Places of a polynomial that stands for the course between two of them.
 constexpr Index n_local = PlacesAround::n;
-/// Of the largest range: equal to rainflow.
+/// Share of the largest range up to which ranges are equal to rainflow.
 constexpr double equal_ranges = 1e-9;
 
 Index wrapped(Index i, Index n) {
@@ -44,7 +44,7 @@ std::array<double, n_local> local_weights(double from_first) {
   return weights;
 }
 
-/// At a place, of the polynomial through those around it.
+/// Value at a place, of the polynomial through the places around it.
 template <typename Get>
 auto between(double place, const Get& get) {
   const double below = std::floor(place);
@@ -84,7 +84,7 @@ double squared_distance(const Stress& a, const Stress& b) {
 }  // namespace
 
 PlacesAround::PlacesAround(double place) : first(Index(std::floor(place)) - (n / 2 - 1)) {
-  constexpr double step = 0.01;  // of places: off by (2 pi step / 48)^2 / 6 of a harmonic's slope
+  constexpr double step = 0.01;  // step of places: off by (2 pi step / 48)^2 / 6 of a harmonic's slope
   const auto at = [&](double x) { return Weights(Weights::Map(local_weights(x - double(first)).data())); };
   const Weights before = at(place - step), after = at(place + step);
   value = at(place);

@@ -28,7 +28,8 @@ struct CycleBetween {
   double from = 0, to = 0;  ///< instants: i + share of the step to the next
 };
 
-/// Between places a value is that of the polynomial through eight of them.
+/// The places around a place between them, and their weights: a value there is that of the polynomial through
+/// eight of them.
 struct PlacesAround {
   static constexpr Eigen::Index n = 8;
   using Weights = Eigen::Matrix<double, n, 1>;
@@ -40,25 +41,26 @@ struct PlacesAround {
     return ((first + i) % n_places + n_places) % n_places;
   }
 
-  Eigen::Index first;               ///< the weights' places begin here and repeat with the period
-  Weights value, slope, curvature;  ///< of the polynomial and its derivatives, by the step of the places
+  Eigen::Index first;  ///< the weights' places begin here and repeat with the period
+  /// Weights of the polynomial and its derivatives, by the step of the places.
+  Weights value, slope, curvature;
 };
 
 class StressCourse {
 public:
-  /// @param unit_Pa  of the place, a column for each channel
+  /// @param unit_Pa  unit stresses of the place, a column for each channel
   StressCourse(const UnitStresses& unit_Pa, const FactorCourse& factors);
 
   /// @param stress_Pa  6 x places of the factors
   static StressCourse at_places(Eigen::ArrayXXd stress_Pa, const FactorCourse& factors);
 
-  /// Of a series that is known at its instants alone.
+  /// The course of a series that is known at its instants alone.
   /// @param stress_Pa  6 x instants (xx, yy, zz, xy, yz, xz), at least one
   explicit StressCourse(Eigen::ArrayXXd stress_Pa);
 
-  /// 6 x places.
+  /// Stress at the places, 6 x places.
   const Eigen::ArrayXXd& stress_Pa() const { return stress_Pa_; }
-  /// At n times as many places where the course is smooth; else at the places. 6 x places.
+  /// Stress at n times as many places where the course is smooth; else at the places. 6 x places.
   Eigen::ArrayXXd denser_Pa(Eigen::Index n) const;
   /// Turning points lie between the places, where the polynomial has them.
   bool is_smooth() const { return is_smooth_; }
@@ -73,10 +75,10 @@ public:
   /// Cycles of a form that is linear in the stress, by rainflow over a period that repeats, each turning
   /// point where the form has it: to 1e-6 of its harmonic with 48 places a period. Ranges that differ by 1e-9
   /// of the largest count as equal.
-  /// @param form     six weights of the components
+  /// @param form     weights of the six components
   /// @param refined  false: at the places
   std::vector<EndsOfCycle> cycles_of(const Eigen::Matrix<double, 6, 1>& form, bool refined = true) const;
-  /// Of the part of the stress along that direction.
+  /// Cycles of the part of the stress along that direction.
   std::vector<EndsOfCycle> cycles_along(const DeviatoricDirection& direction, bool refined = true) const;
 
 private:

@@ -10,7 +10,7 @@
 namespace pipelines {
 namespace {
 
-/// Where the first value is that is not finite; -1: nowhere.
+/// Index of the first value that is not finite; -1: none.
 template <typename Values>
 Eigen::Index first_fault(const Values& values) {
   if (values.size() == 0 || values.allFinite()) return -1;
@@ -19,7 +19,7 @@ Eigen::Index first_fault(const Values& values) {
   return -1;
 }
 
-/// Of one value for each node, or several.
+/// Checks one value for each node, or several.
 template <typename Number>
 void check_nodes(const std::string& stage, const std::string& what, const std::vector<Number>& values,
                  std::size_t per_node) {
@@ -41,7 +41,7 @@ void check_maximum(const std::string& stage, const std::string& what, const Noda
 
 void require_finite(const fem::UnitResponses& responses) {
   const auto n_channels = responses.channels.size();
-  // Of a body that ranks share, a node's number is its place among those of the rank.
+  // On a body that ranks share, a node's number is its place among those of the rank.
   check_nodes("solve", "the displacement for a unit load [m]", responses.displacement_m, 3 * n_channels);
   check_nodes("stress recovery", "the stress for a unit load [Pa]", responses.stress_Pa, 6 * n_channels);
   for (const auto& section : responses.sections)

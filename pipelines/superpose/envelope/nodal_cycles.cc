@@ -19,7 +19,7 @@ Eigen::Map<const UnitRows> unit_stresses(const fem::UnitResponses& responses, st
   return {responses.unit_stress_Pa(node), Index(responses.channels.size()), 6};
 }
 
-/// Of a smaller number 1/x may overflow.
+/// A number whose inverse does not overflow; that of a smaller one may.
 constexpr double smallest_with_inverse = 4 * std::numeric_limits<double>::min();
 
 /// What a tensor is multiplied with, component by component, for its product with the deviator of another;
@@ -65,7 +65,7 @@ public:
   }
 
 private:
-  /// Of the forms that are the nodes' stresses along their directions.
+  /// Finds the extremes of the forms that are the nodes' stresses along their directions.
   void find_extremes(const std::size_t* nodes, std::size_t n, kernel::Wanted wanted) {
     for (std::size_t i = 0; i < n; ++i) {
       const auto unit = unit_stresses(responses_, nodes[i]);
@@ -76,7 +76,7 @@ private:
                                            found_.data());
   }
 
-  /// Of the stress from the smallest value to the largest one.
+  /// Change of the stress from the smallest value to the largest one.
   Stress change_at(std::size_t node, const kernel::LinearExtremes& extremes) const {
     const auto unit = unit_stresses(responses_, node);
     Eigen::Matrix<double, 6, 1> change = Eigen::Matrix<double, 6, 1>::Zero();
@@ -109,7 +109,7 @@ NodalCycles nodal_cycles(const ChannelHistory& loads, const fem::UnitResponses& 
                          const NodalMaximum& von_mises, std::vector<std::size_t> nodes, int n_threads) {
   check_channels(loads, responses);
   const WalkedFactors factors(loads.values);
-  std::vector<std::size_t> own;  // that this rank has: their nodes, and their places in the list
+  std::vector<std::size_t> own;  // nodes that this rank has, and their places in the list
   std::vector<std::size_t> place;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (responses.has(nodes[i])) {

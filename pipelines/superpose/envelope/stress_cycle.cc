@@ -37,7 +37,7 @@ struct Pair {
   double squared = 0;  ///< distance
 };
 
-/// From one end to the farthest point and on, as long as that grows.
+/// Pair from one end to the farthest point and on, as long as that grows.
 Pair pair_by_hops(const Deviators& x, Index start) {
   Pair pair{start, start, 0};
   while (true) {
@@ -74,7 +74,7 @@ private:
   static constexpr Index most_in_box = 8;
   using Corner = Eigen::Array<double, 5, 1>;
   struct Box {
-    Index begin, end;             // of the points
+    Index begin, end;             // range of the points
     Index left = -1, right = -1;  // boxes; none: undivided
     Corner low, high;
   };
@@ -147,7 +147,7 @@ Pair exact_pair(const Deviators& x, Pair best, double slack) {
   const Eigen::Matrix<double, 5, 1> centre = 0.5 * (x.col(best.first) + x.col(best.second));
   const ArrayXd radius = (x.colwise() - centre).colwise().norm().transpose().array();
   const double least = (1 + slack) * std::sqrt(best.squared * alike) - radius.maxCoeff();
-  std::vector<Index> order;  // of those that may have a partner
+  std::vector<Index> order;  // points that may have a partner
   for (Index i = 0; i < x.cols(); ++i)
     if (radius[i] > least) order.push_back(i);
   if (slack > 0 && order.size() > few_points) return Boxes(x, std::move(order)).farthest(best, slack);

@@ -12,7 +12,8 @@
 
 namespace pipelines {
 
-/// Of no value until it is given one: of hundreds of thousands each thread writes its own, once.
+/// A cycle of the stress at a place. Its fields have no value until they are given one: each thread writes
+/// its own of hundreds of thousands, once.
 struct StressCycle {
   Eigen::Index from, to;  ///< instants, from < to; equal where the stress never changes
   Stress half_range_Pa;   ///< (s(to) - s(from)) / 2, by component
@@ -27,8 +28,8 @@ struct StressCycle {
 /// them.
 double signed_von_mises_Pa(const Stress& stress);
 
-/// Its derivatives by the six components, where each shear component stands for both in the tensor; zeros
-/// without von Mises stress.
+/// Derivatives of signed_von_mises_Pa by the six components, where each shear component stands for both in
+/// the tensor; zeros without von Mises stress.
 Stress signed_von_mises_slopes(const Stress& stress);
 
 /// The largest cycle: no pair of instants differs more, but for the slack. Of equal ones that which is found

@@ -27,7 +27,7 @@ struct StressShares {
   std::vector<double> channels;  ///< in the order of ChannelHistory::channels; they sum to one
 };
 
-/// Of a node.
+/// Unit stresses of a node.
 UnitStresses unit_stresses_at(const fem::UnitResponses& responses, std::size_t node);
 
 /// Shares in the stress at one instant. Zeros where its von Mises stress is zero.

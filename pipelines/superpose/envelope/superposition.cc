@@ -25,7 +25,7 @@ Stress combine(const double* unit, const Eigen::ArrayXXd& factors, Eigen::Index 
 }
 
 /// Shares of the effects in the von Mises stress of a node at one instant.
-/// @param sigma_v  of `stress`
+/// @param sigma_v  von Mises stress of `stress`
 /// @param along    room for a number per channel: 3/2 of its unit stress times the deviator over sigma_v^2
 void find_shares(const double* unit, const ChannelHistory& loads, const Stress& stress, double sigma_v,
                  Eigen::Index instant, Eigen::VectorXd& along, float* shares) {

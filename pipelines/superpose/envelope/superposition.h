@@ -24,7 +24,7 @@ double von_mises_Pa(const Stress& stress);
 /// leave half of the digits; the walk through the instants compares by it.)
 double largest_principal_Pa(const Stress& stress);
 
-/// Per node the maximum over the cycle, when it occurs, and the whole tensor at that instant.
+/// Maximum of each node over the cycle, when it occurs, and the whole tensor at that instant.
 struct NodalMaximum {
   std::vector<double> value_Pa;
   std::vector<std::int32_t> instant;  ///< column of ChannelHistory::values
@@ -76,7 +76,7 @@ class EnvelopeWalk {
 public:
   /// @param loads  outlive this
   explicit EnvelopeWalk(const ChannelHistory& loads);
-  /// As envelope().
+  /// The envelope, as envelope() has it.
   Envelope of(const fem::UnitResponses& responses, int n_threads) const;
 
 private:

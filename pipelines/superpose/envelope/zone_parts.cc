@@ -87,7 +87,7 @@ void append(const Region& region, const std::string& number, const std::vector<L
 Zones divided(Zones zones, const fem::Nodes& nodes, const NodalMaximum& envelope, const NodePlaces& places) {
   for (auto& zone : zones.zones) zone.parts.clear();
   if (zones.zones.empty()) return zones;
-  const double peak_Pa = zones.zones.front().peak_Pa;  // of the body: the first zone holds it
+  const double peak_Pa = zones.zones.front().peak_Pa;  // the body's peak: the first zone holds it
   std::vector<Level> levels;
   for (const double share : part_levels)
     if (share * peak_Pa > zones.level_Pa) levels.push_back({share * peak_Pa, share});

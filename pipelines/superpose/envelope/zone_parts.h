@@ -16,7 +16,7 @@ inline constexpr std::array<double, 2> part_levels{0.7, 0.9};
 /// or above it are connected when they share a cell, as those of zones are; a part holds what lies above it
 /// at the next level: two peaks are two parts from the level on at which nothing connects them. A zone that
 /// no level reaches has no parts.
-/// @param zones  of this envelope; their numbers and everything else stay
+/// @param zones  zones of this envelope; their numbers and everything else stay
 Zones divided(Zones zones, const fem::Nodes& nodes, const NodalMaximum& envelope, const NodePlaces& places);
 
 /// The level from which on a zone is no longer one piece, with its number of parts there; for each level that

@@ -22,8 +22,8 @@ std::string to_string(Place place);
 /// Where each node of a body lies, from the features of its mesh.
 struct NodePlaces {
   std::vector<std::string> feature_names;
-  std::vector<std::int32_t>
-      feature;  ///< per node: the feature it lies on (fillets before seats before others), -1 inside
+  /// Per node: the feature it lies on (fillets before seats before others), -1 inside.
+  std::vector<std::int32_t> feature;
   std::vector<Place> place;    ///< per node
   std::vector<char> excluded;  ///< per node: within the exclusion distance of a sharp re-entrant edge
 };
@@ -46,37 +46,37 @@ bool is_left_out(const std::array<double, 3>& point, int boundary_id,
 std::vector<double> beyond_left_out_m(const fem::Nodes& nodes, const NodePlaces& places,
                                       const std::vector<meshes::SharpEdge>& edges);
 
-/// From a point to the nearest of the edge's pieces.
+/// Distance from a point to the nearest of the edge's pieces.
 double distance_m(const std::array<double, 3>& point, const meshes::SharpEdge& edge);
 
 /// A connected region within a zone where the envelope is above a higher level (zone_parts.h).
 struct ZonePart {
   std::string number;        ///< "1.2" in zone 1, "1.2.1" in that; siblings by descending peak
   double level_Pa = 0;       ///< nodes of the part are at or above it
-  double share_of_peak = 0;  ///< the level, of the body's peak
+  double share_of_peak = 0;  ///< the level as a share of the body's peak
   std::size_t peak_node = 0;
   double peak_Pa = 0;
   std::array<double, 3> peak_m{};
-  std::int32_t instant = 0;  ///< of the peak
+  std::int32_t instant = 0;  ///< instant of the peak
   std::size_t n_nodes = 0;
   std::string feature;            ///< the nearest feature or port
-  Place place = Place::interior;  ///< of the peak
+  Place place = Place::interior;  ///< place of the peak
 };
 
-/// One zone.
 struct Zone {
   std::size_t peak_node = 0;
   double peak_Pa = 0;
   std::array<double, 3> peak_m{};
-  std::int32_t instant = 0;        ///< of the peak
+  std::int32_t instant = 0;        ///< instant of the peak
   Stress stress_Pa{};              ///< tensor at the peak and instant
   double safety = 0;               ///< yield strength / peak
-  std::optional<double> error_Pa;  ///< of the peak, numerical part; none: not estimated
+  std::optional<double> error_Pa;  ///< numerical error of the peak; none: not estimated
   double volume_m3 = 0;
-  std::optional<double> volume_error_m3;  ///< numerical (zone_volume_errors.h); none: not estimated
+  /// Numerical error of the volume (zone_volume_errors.h); none: not estimated.
+  std::optional<double> volume_error_m3;
   std::size_t n_nodes = 0;
   std::string feature;            ///< the nearest feature or port
-  Place place = Place::interior;  ///< of the peak
+  Place place = Place::interior;  ///< place of the peak
   std::vector<ZonePart> parts;    ///< every part before those within it; none until zones are divided
 };
 

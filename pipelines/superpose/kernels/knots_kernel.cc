@@ -43,7 +43,8 @@ public:
   }
 
 private:
-  /// Of each channel's unit stress: von Mises, and a bound of the largest principal stress with either sign.
+  /// Sizes of each channel's unit stress: von Mises, and a bound of the largest principal stress with either
+  /// sign.
   static void find_sizes(const double* unit, std::size_t n_channels, double* sizes) {
     for (std::size_t k = 0; k < n_channels; ++k, unit += n_coordinates) {
       double square = 0;
@@ -108,7 +109,7 @@ class Maxima {
 public:
   LargestOfLanes square;
   Largest principal;
-  std::size_t n_spans = 0;  ///< that were looked into
+  std::size_t n_spans = 0;  ///< spans that were looked into
 
   /// @param so_far  principal stress of a knot. Should it come out smaller within its span, by rounding, the
   ///                knot stays.

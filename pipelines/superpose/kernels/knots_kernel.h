@@ -6,7 +6,7 @@
 
 namespace pipelines::kernel::KERNEL_VARIANT {
 
-/// As kernel::Walk of one node.
+/// Maxima of one node, as kernel::Walk finds them.
 NodeMaximum walk_knots(const double* unit, const Factors& factors, const double* lode, double* room);
 
 }  // namespace pipelines::kernel::KERNEL_VARIANT

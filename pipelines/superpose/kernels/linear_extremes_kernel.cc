@@ -17,7 +17,7 @@ static_assert(block % (at_once * n_lanes) == 0);
 /// Spans that are superposed side by side, so that one sum does not wait for another.
 constexpr std::size_t n_beside = n_lanes == 8 ? 4 : n_lanes == 4 ? 2 : 1;
 
-/// Of each lane the extremes so far.
+/// Extremes of each lane so far.
 struct Range {
   Lanes largest = Lanes{} - __builtin_huge_val(), smallest = Lanes{} + __builtin_huge_val();
 };
@@ -28,7 +28,7 @@ inline double smallest_of(Lanes lanes) {
 
 /// A group of instants for some forms.
 /// @param a       factors
-/// @param values  of the first form at these instants
+/// @param values  values of the first form at these instants
 /// @param stride  from one form's values to the next's
 inline void take(const double* weights, const double* a, std::size_t n_channels, double* values,
                  std::size_t stride, Range* ranges) {
@@ -98,7 +98,7 @@ public:
 
   /// @param weight      the form's first weight
   /// @param values      at the knots
-  /// @param deviations  of the form
+  /// @param deviations  deviations of the form
   NearKnots(const double* weight, const Factors& factors, const Range& range, const double* values,
             const double* deviations)
       : weight_(weight),
@@ -126,8 +126,9 @@ public:
   }
 
 private:
-  /// Between values a and b a form deviates from the line by 4 t (1 - t) of its deviation at most, 0 <= t <=
-  /// 1: it is above the larger one by deviation - |b - a| / 4 at most, where that is positive.
+  /// Spans that may hold an extreme. Between values a and b a form deviates from the line by 4 t (1 - t) of
+  /// its deviation at most, 0 <= t <= 1: it is above the larger one by deviation - |b - a| / 4 at most, where
+  /// that is positive.
   unsigned spans_that_matter(std::size_t i) const {
     const Lanes a = load(values_ + i), b = load(values_ + i + 1), most = larger(a, b), least = smaller(a, b);
     const Lanes more = larger(deviations_[i / knots_at_once] - 0.25 * (most - least), Lanes{});

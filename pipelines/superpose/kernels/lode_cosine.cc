@@ -12,7 +12,7 @@ namespace {
 /// whose coefficients fall as well, nothing cancels.
 std::array<double, kernel::n_lode_terms> lode_polynomial() {
   constexpr std::size_t n = kernel::n_lode_terms, n_points = 64;
-  std::array<double, n> powers{}, before{}, chebyshev{};  // of T_(k-1) and of T_k
+  std::array<double, n> powers{}, before{}, chebyshev{};  // coefficients of T_(k-1) and of T_k
   chebyshev[0] = 1;
   for (std::size_t k = 0; k < n; ++k) {
     double coefficient = 0;

@@ -74,7 +74,7 @@ inline const double* factors_at(const Factors& factors, std::size_t instant) {
 
 /// Adds the channels up at a group of instants.
 /// @tparam stride   from one channel's numbers to the next one's
-/// @param numbers  of the first channel: one for each sum
+/// @param numbers  numbers of the first channel: one for each sum
 /// @param a        factors of the first channel at the group's first instant
 template <std::size_t stride, std::size_t n_sums, std::size_t n>
 [[gnu::always_inline]] inline void add_channels(const double* numbers, const double* a,
@@ -91,7 +91,7 @@ template <std::size_t stride, std::size_t n_sums, std::size_t n>
 }
 
 /// Bits of as many lanes as a word has. What follows from them branches once for each, not for each register.
-/// @param of_lanes  of a number: the bits of n_lanes lanes from it on
+/// @param of_lanes  gives for a number the bits of n_lanes lanes from it on
 /// @param n         only lanes below it count
 template <typename OfLanes>
 [[gnu::always_inline]] inline unsigned long word_of(const OfLanes& of_lanes, std::size_t first,
@@ -103,7 +103,7 @@ template <typename OfLanes>
 }
 
 /// The spans beside knots that matter, in ascending order.
-/// @param matter  of the number of a knot: a bit for each of n_lanes knots from it on
+/// @param matter  gives for the number of a knot a bit for each of n_lanes knots from it on
 /// @param look    takes the number of a span
 template <typename Matter, typename Look>
 [[gnu::always_inline]] inline void for_each_span(const Knots& knots, const Matter& matter, const Look& look) {

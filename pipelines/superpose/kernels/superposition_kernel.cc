@@ -84,7 +84,7 @@ NodeMaximum find_maximum(const Node& node, const Factors& factors, const double*
     }
   }
   bound_means(node.unit, factors, bounds);
-  std::size_t n_blocks = 1;  // that were superposed again
+  std::size_t n_blocks = 1;  // blocks that were superposed again
   for (std::size_t b = 0; b < factors.n_blocks; ++b)
     if (b != peak && any(load(node.peaks + b * n_lanes) >= Lanes{} + threshold(principal.value, bounds[b]))) {
       for (std::size_t g = 0; g < block; g += group)

@@ -33,7 +33,7 @@ constexpr std::size_t knots_at_once = 8;
 struct Knots {
   std::size_t n_spans = 0;         ///< one less than the knots; 0: the factors are too rough
   std::size_t last = 0;            ///< instant, of the last knot
-  std::size_t n_blocks = 0;        ///< of knots, padded with the last one
+  std::size_t n_blocks = 0;        ///< blocks of knots, padded with the last one
   std::size_t n_deviations = 0;    ///< a multiple of knots_at_once
   const double* values = nullptr;  ///< n_blocks x n_channels x block
   /// At the share t of a span a factor differs from the straight line between the knots at its ends by
@@ -77,10 +77,10 @@ std::size_t room_of_walk(const Factors& factors);
 /// measure of stress and its deviation reach what the knots have as the largest. Whether the principal stress
 /// does is told by the characteristic polynomial; the angle is computed where it is larger.
 ///
-/// Of rougher factors all instants take five multiply-adds per channel and the five squares. Of each block
-/// the largest squares are kept; the block that has the largest is superposed once more, with the mean
-/// stress, and so are blocks where a bound of the mean and 2/3 of the largest von Mises stress reach the
-/// largest principal stress so far. The nodes of a batch share each block of factors while it is in the
+/// Without knots, for rougher factors, all instants take five multiply-adds per channel and the five squares.
+/// Of each block the largest squares are kept; the block that has the largest is superposed once more, with
+/// the mean stress, and so are blocks where a bound of the mean and 2/3 of the largest von Mises stress reach
+/// the largest principal stress so far. The nodes of a batch share each block of factors while it is in the
 /// cache.
 /// @param unit_stress  n_nodes x n_channels x n_coordinates
 /// @param lode         n_lode_terms, ascending powers of t

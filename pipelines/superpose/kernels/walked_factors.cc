@@ -13,7 +13,7 @@ constexpr double dependent = 1e-14;
 /// More than the rounding of a sum over the channels, relative to their largest values.
 constexpr double rounding_of_sums = 1e-13;
 
-/// With fewer the knots save nothing.
+/// Number of blocks below which knots save nothing.
 constexpr std::size_t fewest_blocks_for_knots = 3;
 
 /// Deviations from straight lines between the knots, relative to the channels' sizes: with so many on the

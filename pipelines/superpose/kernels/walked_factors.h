@@ -13,7 +13,7 @@ namespace pipelines {
 /// Matrix Computations, 4th ed., 5.4.2); each channel counts by its own size.
 struct IndependentChannels {
   std::vector<Eigen::Index> channels;
-  std::vector<Eigen::Index> others;  ///< that are not zero
+  std::vector<Eigen::Index> others;  ///< channels that are sums of these, but not zero
   Eigen::MatrixXd of_channel;  ///< K x independent: values = of_channel * values of the independent, to 1e-14
 };
 /// @param values  K x instants
@@ -34,7 +34,7 @@ public:
   void gather(const double* of_channel, std::size_t width, double* walked) const;
 
   /// The same of one number per channel.
-  /// @param of_channel  of a channel's row
+  /// @param of_channel  number of a channel, by the channel's row
   /// @param walked      n_channels() numbers, each `stride` after the one before, to be written
   template <typename OfChannel>
   void gather_numbers(const OfChannel& of_channel, double* walked, std::size_t stride) const {

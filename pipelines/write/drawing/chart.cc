@@ -39,7 +39,7 @@ namespace {
 
 constexpr int chart_width = 1200, chart_height = 800, title_size = 22, label_size = 18;
 
-/// After Okabe and Ito: told apart by hue and by lightness.
+/// Colours after Okabe and Ito: told apart by hue and by lightness.
 constexpr std::array<std::array<unsigned char, 3>, 8> curve_colours{{{0, 114, 178},
                                                                      {213, 94, 0},
                                                                      {0, 158, 115},
@@ -254,7 +254,7 @@ bool write_chart(const HeatMap& chart, const std::filesystem::path& file) {
   values->SetName(chart.figure_title.c_str());
   for (const double figure : chart.figures) values->InsertNextValue(figure);
   image->GetPointData()->SetScalars(values);
-  vtkNew<vtkColorTransferFunction> colours;  // of even lightness steps: dark blue, green, yellow
+  vtkNew<vtkColorTransferFunction> colours;  // colours of even lightness steps: dark blue, green, yellow
   const std::array<std::array<double, 3>, 5> stops{{{0.267, 0.005, 0.329},
                                                     {0.230, 0.322, 0.546},
                                                     {0.128, 0.567, 0.551},

@@ -12,14 +12,14 @@ namespace pipelines {
 struct ChartAxis {
   std::string title;
   bool is_logarithmic = false;
-  std::vector<std::string> names{};  ///< of the places 1, 2, 3 ...: shown there in place of numbers
+  std::vector<std::string> names{};  ///< names of the places 1, 2, 3 ...: shown there in place of numbers
 };
 
 /// One curve; x ascending or not, as it is to be joined.
 struct ChartCurve {
   std::string name;
   std::vector<double> x, y;
-  std::vector<double> error;  ///< of y, drawn as a band; empty: none
+  std::vector<double> error;  ///< error of y, drawn as a band; empty: none
   bool is_joined = true;      ///< else marks alone
   bool has_marks = true;      ///< at the points of a joined curve of up to 100
   bool has_stems = false;     ///< lines from zero up to the marks of one that is not joined
@@ -37,10 +37,10 @@ struct LineChart {
   std::string title;
   ChartAxis x, y;
   std::vector<ChartCurve> curves;
-  bool has_equal_scales =
-      false;  ///< one unit is as long along x as along y, and both axes have zero in the middle
-  bool is_from_zero =
-      false;  ///< both axes begin at zero and have room behind the largest; nothing is negative
+  /// One unit is as long along x as along y, and both axes have zero in the middle.
+  bool has_equal_scales = false;
+  /// Both axes begin at zero and have room behind the largest; nothing is negative.
+  bool is_from_zero = false;
   /// Shown whole with equal scales, and more beside it: the legend stands on its right.
   std::optional<ChartWindow> window{};
 };

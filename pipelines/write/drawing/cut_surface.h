@@ -17,7 +17,7 @@ struct CutPlane {
 std::shared_ptr<vtkPolyData> clipped(vtkPolyData* data, const CutPlane& cut);
 
 /// The section of the body that the faces enclose.
-/// @param subdivisions  of the faces, as in smooth_surface
+/// @param subdivisions  subdivisions of the faces, as in smooth_surface
 std::shared_ptr<vtkPolyData> section(vtkUnstructuredGrid* faces, int subdivisions, const CutPlane& cut);
 
 /// How a place on the surface is looked at.
@@ -27,7 +27,7 @@ struct SurfaceView {
 };
 
 /// The first of views_of from which the place is seen; else the first of all, of the body cut open.
-/// @param normal  of the surface there, outward
+/// @param normal  normal of the surface there, outward
 SurfaceView view_of_place(vtkPolyData* surface, const Vector& place, const Vector& normal);
 
 }  // namespace pipelines

@@ -17,7 +17,7 @@ std::vector<double> centres(const std::vector<LabelRequest>& requests, const std
     std::size_t n = 0;
     double mean() const { return sum / double(n); }
   };
-  // Of each label the place where the first one would be if all before it touched.
+  // Distance of each label from the first one where all up to it touch.
   std::vector<double> offset(chosen.size(), 0);
   for (std::size_t i = 1; i < chosen.size(); ++i)
     offset[i] = offset[i - 1] + 0.5 * (requests[chosen[i - 1]].width + requests[chosen[i]].width) + rows.gap;

@@ -17,7 +17,7 @@ struct LabelPlace {
 
 /// The two rows and their ends.
 struct LabelRows {
-  double left = 0, right = 0;       ///< of both rows
+  double left = 0, right = 0;       ///< ends of both rows
   double below_y = 0, above_y = 0;  ///< where leaders meet the rows
   double gap = 0;                   ///< between neighbours
 };

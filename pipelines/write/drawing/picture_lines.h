@@ -17,7 +17,7 @@ inline constexpr Colour ink{40, 40, 40};
 
 using Pixel = std::array<double, 2>;
 
-/// Of one colour.
+/// Lines and areas of one colour.
 class Drawing {
 public:
   void line(double x0, double y0, double x1, double y1) { lines_.push_back({{x0, y0}, {x1, y1}}); }

@@ -49,7 +49,7 @@ std::shared_ptr<Object> shared(const vtkSmartPointer<Object>& object) {
   return {object.Get(), [object](Object*) {}};
 }
 
-/// Of the arrays at the nodes these alone; names that the file does not have are none.
+/// Reads from the arrays at the nodes these alone; names that the file does not have are none.
 void read_only(const std::set<std::string>& names, vtkXMLUnstructuredGridReader& reader) {
   reader.UpdateInformation();
   for (int i = 0; i < reader.GetNumberOfPointArrays(); ++i) {
@@ -74,7 +74,7 @@ void keep_surface(vtkUnstructuredGrid& faces, vtkDataArray& on_surface) {
   faces.SetCells(types.data(), kept);
 }
 
-/// Of a quadrilateral the shorter of the two mean lengths of opposite edges, of a triangle its shortest edge.
+/// Shorter one of a quadrilateral's two mean lengths of opposite edges; a triangle's shortest edge.
 double shorter_side_m(vtkUnstructuredGrid* faces, vtkCell* face) {
   std::array<double, 4> length_m{};
   const int n = std::min(face->GetNumberOfEdges(), 4);

@@ -49,7 +49,7 @@ struct SurfacePeak {
   Vector at{}, normal{};
 };
 
-/// @param faces    of boundary_faces: the nodes at which the field is known, not what lies between them
+/// @param faces    faces of boundary_faces: the nodes at which the field is known, not what lies between them
 /// @param surface  the same faces from smooth_surface, for the normal
 SurfacePeak peak_of(vtkUnstructuredGrid* faces, vtkPolyData* surface);
 
@@ -69,7 +69,7 @@ struct View {
 
 /// The side of the body from which a place is looked at, across its length (long bodies) or horizontally, y
 /// up.
-/// @param bounds  of the body: x, y, z from and to
+/// @param bounds  bounds of the body: x, y, z from and to
 /// @param normal  outward, at the place
 Vector near_side(const double* bounds, const Vector& normal);
 

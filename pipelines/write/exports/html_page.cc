@@ -83,8 +83,8 @@ void HtmlPage::preformatted(const std::string& text) {
   body_ += "<pre>" + shown(text) + "</pre>\n";
 }
 
-void HtmlPage::table(const std::vector<std::string>& titles,
-                     const std::vector<std::vector<std::string>>& rows) {
+void HtmlPage::table(const ShownRows& table) {
+  const auto& [titles, rows] = table;
   if (rows.empty()) return;
   body_ += "<table>\n<tr>";
   for (std::size_t i = 0; i < titles.size(); ++i)

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/base/fields/field_outputs.h"
+
 namespace pipelines {
 
 /// Bytes as text, RFC 4648 section 4.
@@ -24,11 +26,11 @@ public:
   void verdict(const std::string& judgement, const std::string& text);
   /// What `add` adds, behind a line that opens it; nothing if it adds nothing.
   void folded(const std::string& title, const std::function<void()>& add);
-  /// As it stands, in letters of one width.
+  /// Adds a text as it stands, in letters of one width.
   void preformatted(const std::string& text);
   /// Cells that begin with a digit or sign and have no words stand to the right. Rows without cells are left
   /// out.
-  void table(const std::vector<std::string>& titles, const std::vector<std::vector<std::string>>& rows);
+  void table(const ShownRows& rows);
   /// The bytes of a PNG file become part of the page; nothing if there is no such file.
   void picture(const std::filesystem::path& png, const std::string& what_it_shows);
 

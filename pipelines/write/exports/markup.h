@@ -5,7 +5,7 @@
 
 namespace pipelines {
 
-/// With & < > " ' as entities.
+/// The text with & < > " ' as entities.
 std::string escaped(const std::string& text);
 
 }  // namespace pipelines

@@ -92,7 +92,7 @@ void write_envelope_pieces(const std::filesystem::path& pvtu, const fem::Nodes& 
 /// on a boundary face, in ascending order of their numbers; the cell field `boundary_id` is added.
 class SurfaceSnapshots {
 public:
-  /// @param nodes  of the body; they outlive this
+  /// @param nodes  nodes of the body; they outlive this
   /// @param ids    as for write_envelope_vtu; at cells: one per boundary face
   explicit SurfaceSnapshots(const fem::Nodes& nodes, std::vector<IdField> ids = {},
                             VtuCompression compression = VtuCompression::zlib,
@@ -124,7 +124,7 @@ void write_surface_snapshot_vtu(const std::filesystem::path& path, const fem::No
 struct PvdEntry {
   double time_s = 0;
   std::filesystem::path file;  ///< relative to the directory of the .pvd
-  std::string name;            ///< of the part, for ParaView's block names; may be empty
+  std::string name;            ///< name of the part, for ParaView's block names; may be empty
 };
 
 /// A collection of snapshots over time.

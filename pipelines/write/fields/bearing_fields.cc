@@ -14,14 +14,13 @@ using summary::Json, summary::figure, summary::number;
 FieldOf<BearingResult> answer(const char* key, const Quantity& quantity, const char* label,
                               const char* meaning, std::optional<double> BearingAnswers::*of) {
   const std::string unit = quantity.unit;
-  return FieldOf<BearingResult>(key, quantity, meaning,
+  return FieldOf<BearingResult>(key, quantity, meaning, label,
                                 [=](const BearingResult& b) {
                                   const auto& value = b.answers.*of;
                                   if (!value) return Json(nullptr);
                                   return unit.empty() ? number(*value) : figure(*value, unit);
                                 })
       .digits("{:.5g}")
-      .labelled(label)
       .optional();
 }
 
@@ -30,28 +29,25 @@ FieldOf<BearingResult> answer(const char* key, const Quantity& quantity, const c
 FieldTable<BearingResult> bearing_fields() {
   using Field = FieldOf<BearingResult>;
   return without_csv(FieldTable<BearingResult>{
-      Field("load", quantities::text, "the force on it", [](const BearingResult& b) { return b.load; }),
-      Field("equivalent_load", as_figure(quantities::force), "by the life law over the cycle",
-            [](const BearingResult& b) { return figure(b.equivalent_load_N, "N"); })
-          .labelled("equivalent load"),
-      Field("largest_load", as_figure(quantities::force), "over the cycle",
-            [](const BearingResult& b) { return figure(b.largest_load_N, "N"); })
-          .labelled("largest"),
-      Field("speed", as_figure(quantities::angular_speed), "of its shaft",
-            [](const BearingResult& b) { return figure(b.speed_rad_s, "rad/s"); }),
-      Field("L10", quantities::count, "revolutions that nine in ten reach; null: never loaded",
+      {"load", quantities::text, "the force on it", &BearingResult::load},
+      {"equivalent_load", as_figure(quantities::force), "by the life law over the cycle", "equivalent load",
+       [](const BearingResult& b) { return figure(b.equivalent_load_N, "N"); }},
+      {"largest_load", as_figure(quantities::force), "over the cycle", "largest",
+       [](const BearingResult& b) { return figure(b.largest_load_N, "N"); }},
+      {"speed", as_figure(quantities::angular_speed), "of its shaft",
+       [](const BearingResult& b) { return figure(b.speed_rad_s, "rad/s"); }},
+      Field("L10", quantities::count, "revolutions that nine in ten reach; null: never loaded", "revolutions",
             [](const BearingResult& b) {
               return b.life ? number(b.life->million_revolutions * 1e6) : Json(nullptr);
             })
-          .labelled("revolutions")
           .shown_as([](const Json& row) {
             const auto& turns = row.at("L10");
             return turns.is_number() ? fmt::format("{:.3g}", turns.get<double>()) : "unloaded";
           }),
       Field("L10h", as_figure(quantities::hours), "the same in hours of operation; null: never loaded",
+            "L10h",
             [](const BearingResult& b) { return b.life ? figure(b.life->hours, "h") : Json(nullptr); })
-          .digits("{:.5g}")
-          .labelled("L10h"),
+          .digits("{:.5g}"),
   });
 }
 

@@ -15,11 +15,11 @@ FieldTable<BearingResult> bearing_fields();
 /// What the scene asks beyond L10, there too.
 FieldTable<BearingResult> bearing_answer_fields();
 
-/// bearings; null without any.
+/// The object `bearings`; null without any.
 summary::Json bearings_json(const std::vector<BearingResult>& bearings);
 
 /// Loads and L10 for people.
-/// @param bearings  of summary.json
+/// @param bearings  bearings of summary.json
 ShownRows shown_bearings(const summary::Json& bearings);
 
 /// Answers for people; nothing where the scene asks nothing.

@@ -13,12 +13,12 @@ namespace pipelines {
 
 /// A body's result and the cycle that it belongs to.
 struct BodyResult {
-  const Scene& scene;  ///< of the run, with the instants of the loads
+  const Scene& scene;  ///< scene of the run, with the instants of the loads
   const kinetics::LoadHistory& loads;
   const Judged& analysis;
 };
 
-/// Of an instant that may lie between two.
+/// The moment of an instant that may lie between two.
 inline summary::Json moment_json(const BodyResult& body, double instant) {
   const auto moment = moment_between(body.scene, body.loads, instant);
   return summary::object({{"turn", moment.turn}, {"drive_angle_rad", moment.angle_rad}});
@@ -32,7 +32,16 @@ struct RowOf {
   std::size_t index;  ///< from 0
 };
 
-/// As summary.json has them.
+/// A member of the item; a number has to be finite.
+template <typename Value, typename Item>
+auto of_item(Value Item::*member) {
+  return [=](const auto& row) -> summary::Json {
+    if constexpr (std::is_same_v<Value, double>) return summary::number(row.item.*member);
+    return row.item.*member;
+  };
+}
+
+/// Rows as summary.json has them.
 template <typename Item>
 summary::Json summary_rows(const FieldTable<RowOf<Item>>& fields, const BodyResult& body,
                            const std::vector<Item>& items) {
@@ -42,7 +51,7 @@ summary::Json summary_rows(const FieldTable<RowOf<Item>>& fields, const BodyResu
   return rows;
 }
 
-/// With all fields, for CSV.
+/// Rows with all fields, for CSV.
 template <typename Item>
 summary::Json whole_rows(const FieldTable<RowOf<Item>>& fields, const BodyResult& body,
                          const std::vector<Item>& items) {
@@ -52,7 +61,7 @@ summary::Json whole_rows(const FieldTable<RowOf<Item>>& fields, const BodyResult
   return rows;
 }
 
-/// As a CSV file.
+/// Writes rows as a CSV file.
 template <typename Item>
 void write_rows(const std::filesystem::path& file, const FieldTable<RowOf<Item>>& fields,
                 const BodyResult& body, const std::vector<Item>& items) {

@@ -57,7 +57,7 @@ Json by_block(const DutyPlaceRow& r) {
   return blocks;
 }
 
-/// By "<block>.running", and "<block>.starts" where a block has some.
+/// Damage by "<block>.running", and by "<block>.starts" where a block has some.
 Json damage_of_blocks(const DutyPlaceRow& r) {
   Json damage = Json::object();
   for (std::size_t b = 0; b < r.place.blocks.size(); ++b) {
@@ -90,23 +90,20 @@ FieldTable<DutyPlaceRow> duty_place_fields() {
   const FieldTable<Row> place{
       Field("body", quantities::text, "name of the body", [](const Row& r) { return r.body; })
           .without_summary(),
-      Field("feature", quantities::text, "surface of the place, or weld toe",
-            [](const Row& r) { return r.place.feature; })
-          .labelled("place"),
+      {"feature", quantities::text, "surface of the place, or weld toe", "place",
+       [](const Row& r) { return r.place.feature; }},
       Field("kind", quantities::text, "`surface` or `weld toe`",
             [](const Row& r) { return r.place.is_weld ? "weld toe" : "surface"; })
           .without_summary(),
-      Field("weld_toe", quantities::flag, "whether it is one", [](const Row& r) { return r.place.is_weld; })
-          .without_csv()
-          .labelled("weld toe"),
-      Field("position", quantities::position, "of the worst node, or of the toe",
-            [](const Row& r) { return r.place.position_m; }),
-      Field("amplitude", quantities::stress, "the largest of all blocks and starts",
-            [](const Row& r) { return number(largest_amplitude_Pa(r.place)); })
-          .labelled("amplitude"),
-      Field("damage_per_hour", quantities::per_hour, "of operation, of all blocks and starts",
-            [](const Row& r) { return number(r.place.damage_per_s * hour_s); })
-          .labelled("damage"),
+      Field("weld_toe", quantities::flag, "whether it is one", "weld toe",
+            [](const Row& r) { return r.place.is_weld; })
+          .without_csv(),
+      {"position", quantities::position, "of the worst node, or of the toe",
+       [](const Row& r) { return r.place.position_m; }},
+      {"amplitude", quantities::stress, "the largest of all blocks and starts", "amplitude",
+       [](const Row& r) { return number(largest_amplitude_Pa(r.place)); }},
+      {"damage_per_hour", quantities::per_hour, "of operation, of all blocks and starts", "damage",
+       [](const Row& r) { return number(r.place.damage_per_s * hour_s); }},
   };
   const auto life = life_fields<Row>([](const Row& r) { return r.place.life_s; },
                                      [](const Row& r) { return r.place.certainty; });
@@ -117,19 +114,15 @@ FieldTable<DutyPlaceRow> duty_place_fields() {
             })
           .without_csv(),
       Field("life_safety", quantities::ratio,
-            "against the wanted life, beyond the safety factor: a factor on all stresses",
+            "against the wanted life, beyond the safety factor: a factor on all stresses", "safety (least)",
             [](const Row& r) { return number_or_none(or_none(r.place.life_safety)); })
-          .labelled("safety (least)")
           .shown_as([](const Json& row) { return safety_of_row(row, "life_safety", "life_safety_least"); }),
-      Field(
-          "life_safety_least", quantities::ratio, "what the whole error leaves of it",
-          [](const Row& r) { return least_safety_json(or_none(r.place.life_safety), r.place.error_share); }),
-      Field("stress_error", quantities::percent, "whole error of the stress; empty: not known",
-            [](const Row& r) { return number_or_none(r.place.error_share); }),
-      Field("damage_by", quantities::text, "blocks and starts that bring most of it",
-            [](const Row& r) { return damage_by(r); })
-          .labelled("damage by"),
-      Field("by_block", quantities::structure, "amplitude and damage of each block and its starts", by_block),
+      {"life_safety_least", quantities::ratio, "what the whole error leaves of it",
+       [](const Row& r) { return least_safety_json(or_none(r.place.life_safety), r.place.error_share); }},
+      {"stress_error", quantities::percent, "whole error of the stress; empty: not known",
+       [](const Row& r) { return number_or_none(r.place.error_share); }},
+      {"damage_by", quantities::text, "blocks and starts that bring most of it", "damage by", damage_by},
+      {"by_block", quantities::structure, "amplitude and damage of each block and its starts", by_block},
       Field("damage_of", quantities::per_hour_by_name, "damage of each block's running and starts",
             damage_of_blocks)
           .in_column("")
@@ -144,56 +137,44 @@ FieldTable<DutyPlaceRow> duty_place_fields() {
 FieldTable<BlockResult> block_fields() {
   using Field = FieldOf<BlockResult>;
   return without_csv<BlockResult>({
-      Field("share", quantities::percent, "of all time", [](const auto& b) { return number(b.share); })
-          .digits("{:.4g}")
-          .labelled("share"),
-      Field("starts_per_day", quantities::count, "of all time, standstill included",
-            [](const auto& b) { return number(b.starts_per_day); })
-          .digits("{:.4g}")
-          .labelled("starts a day"),
-      Field("start_transient", quantities::flag,
-            "a start is followed over time; else it is from rest to running at once",
-            [](const auto& b) { return b.has_transient; })
-          .labelled("with transient"),
-      Field("bearings", quantities::structure, "equivalent load and L10h of each", bearings_of),
+      Field("share", quantities::percent, "of all time", "share", &BlockResult::share).digits("{:.4g}"),
+      Field("starts_per_day", quantities::count, "of all time, standstill included", "starts a day",
+            &BlockResult::starts_per_day)
+          .digits("{:.4g}"),
+      {"start_transient", quantities::flag,
+       "a start is followed over time; else it is from rest to running at once", "with transient",
+       &BlockResult::has_transient},
+      {"bearings", quantities::structure, "equivalent load and L10h of each", bearings_of},
   });
 }
 
 FieldTable<BlockStress> block_stress_fields() {
   using Field = FieldOf<BlockStress>;
   return without_csv<BlockStress>({
-      Field("von_mises", as_figure(quantities::stress), "outside the exclusion distances, or at a weld toe",
-            [](const auto& s) { return summary::figure(s.value_Pa, "Pa"); })
-          .labelled("largest stress"),
+      {"von_mises", as_figure(quantities::stress), "outside the exclusion distances, or at a weld toe",
+       "largest stress", [](const auto& s) { return summary::figure(s.value_Pa, "Pa"); }},
       Field("time_sampling", as_figure(quantities::stress),
-            "by how much it may be larger between the instants",
+            "by how much it may be larger between the instants", "between instants",
             [](const auto& s) { return summary::figure(s.sampling_error_Pa, "Pa"); })
-          .digits("{:.2g}")
-          .labelled("between instants"),
-      Field("safety", quantities::ratio, "yield strength over it",
-            [](const auto& s) { return number_or_none(s.safety); })
-          .labelled("safety"),
-      Field("feature", quantities::text, "where it is", [](const auto& s) { return s.feature; })
-          .labelled("at"),
-      Field("weld_toe", quantities::flag, "whether that is one", [](const auto& s) { return s.is_hot_spot; })
-          .labelled("weld toe"),
+          .digits("{:.2g}"),
+      {"safety", quantities::ratio, "yield strength over it", "safety",
+       [](const auto& s) { return number_or_none(s.safety); }},
+      {"feature", quantities::text, "where it is", "at", &BlockStress::feature},
+      {"weld_toe", quantities::flag, "whether that is one", "weld toe", &BlockStress::is_hot_spot},
   });
 }
 
 FieldTable<DutyBearing> duty_bearing_fields() {
   using Field = FieldOf<DutyBearing>;
   return without_csv<DutyBearing>({
-      Field("equivalent_load", as_figure(quantities::force), "by turns: (sum n P^p / sum n)^(1/p)",
-            [](const auto& b) { return summary::figure(b.equivalent_load_N, "N"); })
-          .labelled("equivalent load"),
-      Field("L10h", as_figure(quantities::hours), "in operation; null: never loaded",
+      {"equivalent_load", as_figure(quantities::force), "by turns: (sum n P^p / sum n)^(1/p)",
+       "equivalent load", [](const auto& b) { return summary::figure(b.equivalent_load_N, "N"); }},
+      Field("L10h", as_figure(quantities::hours), "in operation; null: never loaded", "L10h",
             [](const auto& b) { return hours_figure(b.life_h); })
-          .digits("{:.5g}")
-          .labelled("L10h"),
+          .digits("{:.5g}"),
       Field("modified_life", as_figure(quantities::hours), "likewise, of ISO 281; null: not asked for",
-            [](const auto& b) { return hours_figure(b.modified_life_h); })
-          .digits("{:.5g}")
-          .labelled("modified life"),
+            "modified life", [](const auto& b) { return hours_figure(b.modified_life_h); })
+          .digits("{:.5g}"),
   });
 }
 

@@ -59,12 +59,14 @@ std::string nominal_and_factor(const Json& row, const char* kind) {
 }
 
 FieldTable<DinRow> din_kind(const char* kind, double DinTriple::*of) {
-  const auto field = [&](const char* what, const Quantity& quantity, const std::string& meaning, auto get) {
-    return FieldOf<DinRow>(fmt::format("{}.{}", what, kind), quantity, meaning,
+  const auto field = [&](const char* what, const Quantity& quantity, const std::string& meaning, auto get,
+                         const std::string& title = "") {
+    return FieldOf<DinRow>(fmt::format("{}.{}", what, kind), quantity, meaning, title,
                            [=](const DinRow& r) { return number(get(r.item).*of); });
   };
-  return {field("amplitude_Pa", stress_by_kind, "nominal", [](const auto& f) { return f.load.amplitude_Pa; })
-              .labelled(std::string(kind) + " MPa x factor")
+  return {field(
+              "amplitude_Pa", stress_by_kind, "nominal", [](const auto& f) { return f.load.amplitude_Pa; },
+              std::string(kind) + " MPa x factor")
               .shown_as([=](const Json& row) { return nominal_and_factor(row, kind); }),
           field("mean_Pa", stress_by_kind, "nominal", [](const auto& f) { return f.load.mean_Pa; }),
           field("shape_factor", quantities::ratio, "local over nominal amplitude",
@@ -95,21 +97,16 @@ FieldTable<PlaceRow> fatigue_fields() {
         .detail(title);
   };
   const FieldTable<PlaceRow> stress{
-      Field("feature", quantities::text, "surface of the place",
-            [](const PlaceRow& r) { return r.item.feature; })
-          .labelled("place"),
-      Field("place", quantities::text, "kind of surface, as in `zones.csv`",
-            [](const PlaceRow& r) { return to_string(r.item.surface); }),
-      Field("position", quantities::position, "of the worst node, body frame",
-            [](const PlaceRow& r) { return r.item.position_m; }),
-      Field("amplitude", quantities::stress,
-            "half of the von Mises stress of the largest difference of two instants",
-            [](const PlaceRow& r) { return number(r.item.cycle.amplitude_Pa); })
-          .labelled("amplitude"),
-      Field("mean", quantities::stress,
-            "von Mises stress of the middle of both, with the sign of the normal stresses",
-            [](const PlaceRow& r) { return number(r.item.cycle.signed_mean_Pa); })
-          .labelled("mean"),
+      {"feature", quantities::text, "surface of the place", "place", of_item(&FatiguePlace::feature)},
+      {"place", quantities::text, "kind of surface, as in `zones.csv`",
+       [](const PlaceRow& r) { return to_string(r.item.surface); }},
+      {"position", quantities::position, "of the worst node, body frame", of_item(&FatiguePlace::position_m)},
+      {"amplitude", quantities::stress,
+       "half of the von Mises stress of the largest difference of two instants", "amplitude",
+       [](const PlaceRow& r) { return number(r.item.cycle.amplitude_Pa); }},
+      {"mean", quantities::stress,
+       "von Mises stress of the middle of both, with the sign of the normal stresses", "mean",
+       [](const PlaceRow& r) { return number(r.item.cycle.signed_mean_Pa); }},
       Field("half_range", quantities::stress_tensor, "half of that difference",
             [](const PlaceRow& r) { return r.item.cycle.half_range_Pa; })
           .without_csv(),
@@ -124,36 +121,32 @@ FieldTable<PlaceRow> fatigue_fields() {
             [](const PlaceRow& r) { return moment_json(r.body, r.item.to); })
           .in_column("drive_angle_to")
           .detail("to"),
-      Field("related_gradient", quantities::related_gradient, "of the amplitude, into the body",
-            [](const PlaceRow& r) { return number(r.item.gradient_per_m); }),
-      Field("support_factor", quantities::ratio, "n_sigma that the gradient brings",
-            [](const PlaceRow& r) { return number(r.item.support); }),
-      Field("endurance", quantities::stress,
-            "amplitude that is endured at this mean, before the safety factor",
-            [](const PlaceRow& r) { return number(r.item.endurance_Pa); })
-          .labelled("endured"),
+      {"related_gradient", quantities::related_gradient, "of the amplitude, into the body",
+       of_item(&FatiguePlace::gradient_per_m)},
+      {"support_factor", quantities::ratio, "n_sigma that the gradient brings",
+       of_item(&FatiguePlace::support)},
+      {"endurance", quantities::stress, "amplitude that is endured at this mean, before the safety factor",
+       "endured", of_item(&FatiguePlace::endurance_Pa)},
       Field("safety_against_endurance", quantities::ratio, "endurance over amplitude; empty: nothing changes",
-            [](const PlaceRow& r) { return number_or_none(r.item.safety); })
-          .labelled("safety (least)")
+            "safety (least)", [](const PlaceRow& r) { return number_or_none(r.item.safety); })
           .shown_as(
               [](const Json& row) { return safety_of_row(row, "safety_against_endurance", "safety_least"); }),
-      Field("safety_least", quantities::ratio, "what the whole error leaves of it",
-            [](const PlaceRow& r) { return least_safety_json(r.item.safety, r.item.error_share); }),
+      {"safety_least", quantities::ratio, "what the whole error leaves of it",
+       [](const PlaceRow& r) { return least_safety_json(r.item.safety, r.item.error_share); }},
       Field("utilisation", quantities::percent,
-            "the safety factor over that safety: 100 % is what is allowed",
-            [](const PlaceRow& r) { return number(r.item.utilisation); })
-          .labelled("used (most)")
+            "the safety factor over that safety: 100 % is what is allowed", "used (most)",
+            of_item(&FatiguePlace::utilisation))
           .shown_as(utilisation_of_row),
-      Field("utilisation_most", quantities::percent, "what the whole error makes of it",
-            [](const PlaceRow& r) { return number_or_none(r.item.utilisation * (1 + r.item.error_share)); }),
-      Field("damage_per_turn", quantities::count, "of the drive, at the limit over the safety factor",
-            [](const PlaceRow& r) { return number(r.item.damage_per_turn); }),
-      Field("damage_per_hour", quantities::per_hour, "likewise",
-            [](const PlaceRow& r) { return number(r.item.life_s ? seconds_per_hour / *r.item.life_s : 0); }),
-      Field("life_turns", quantities::count, "turns of the drive; empty: endures",
-            [](const PlaceRow& r) {
-              return number_or_none(r.item.life_s ? 1 / r.item.damage_per_turn : INFINITY);
-            }),
+      {"utilisation_most", quantities::percent, "what the whole error makes of it",
+       [](const PlaceRow& r) { return number_or_none(r.item.utilisation * (1 + r.item.error_share)); }},
+      {"damage_per_turn", quantities::count, "of the drive, at the limit over the safety factor",
+       of_item(&FatiguePlace::damage_per_turn)},
+      {"damage_per_hour", quantities::per_hour, "likewise",
+       [](const PlaceRow& r) { return number(r.item.life_s ? seconds_per_hour / *r.item.life_s : 0); }},
+      {"life_turns", quantities::count, "turns of the drive; empty: endures",
+       [](const PlaceRow& r) {
+         return number_or_none(r.item.life_s ? 1 / r.item.damage_per_turn : INFINITY);
+       }},
   };
   const FieldTable<PlaceRow> rules{
       safety_by("findley", "Findley", &SecondOpinions::findley),
@@ -172,36 +165,25 @@ FieldTable<PlaceRow> fatigue_fields() {
 FieldTable<WeldRow> weld_fields() {
   using Field = FieldOf<WeldRow>;
   const FieldTable<WeldRow> stress{
-      Field("name", quantities::text, "plate and place of the toe",
-            [](const WeldRow& r) { return r.item.name; })
-          .in_column("toe")
-          .labelled("weld toe"),
-      Field("position", quantities::position, "of the toe, body frame",
-            [](const WeldRow& r) { return r.item.toe_m; }),
-      Field("type", quantities::text, "of the weld; empty: the class is the scene's own",
-            [](const WeldRow& r) { return r.item.type.empty() ? Json(nullptr) : Json(r.item.type); }),
-      Field("range", quantities::stress, "largest counted range of the structural stress",
-            [](const WeldRow& r) { return number(r.item.range_Pa); })
-          .labelled("range"),
-      Field("thickness", quantities::length, "of the plate at the toe",
-            [](const WeldRow& r) { return number(r.item.thickness_m); })
-          .labelled("thickness"),
-      Field("thickness_factor", quantities::ratio, "f(t) on the class",
-            [](const WeldRow& r) { return number(r.item.thickness_factor); })
-          .labelled("f(t)"),
-      Field("thickness_exponent", quantities::ratio, "n of f(t)",
-            [](const WeldRow& r) { return number(r.item.thickness_exponent); }),
-      Field("angle", quantities::angle, "of the governing direction from the toe's normal",
-            [](const WeldRow& r) { return number(r.item.angle_rad); })
-          .labelled("angle"),
-      Field("principal", quantities::flag, "that direction is a principal one of the range",
-            [](const WeldRow& r) { return r.item.is_principal; }),
-      Field("class", quantities::stress, "FAT class of IIW",
-            [](const WeldRow& r) { return number(r.item.class_Pa); })
-          .digits("{:.0f}")
-          .labelled("FAT"),
-      Field("damage_per_turn", quantities::count, "of the drive",
-            [](const WeldRow& r) { return number(r.item.damage_per_turn); }),
+      Field("name", quantities::text, "plate and place of the toe", "weld toe", of_item(&WeldFatigue::name))
+          .in_column("toe"),
+      {"position", quantities::position, "of the toe, body frame", of_item(&WeldFatigue::toe_m)},
+      {"type", quantities::text, "of the weld; empty: the class is the scene's own",
+       [](const WeldRow& r) { return r.item.type.empty() ? Json(nullptr) : Json(r.item.type); }},
+      {"range", quantities::stress, "largest counted range of the structural stress", "range",
+       of_item(&WeldFatigue::range_Pa)},
+      {"thickness", quantities::length, "of the plate at the toe", "thickness",
+       of_item(&WeldFatigue::thickness_m)},
+      {"thickness_factor", quantities::ratio, "f(t) on the class", "f(t)",
+       of_item(&WeldFatigue::thickness_factor)},
+      {"thickness_exponent", quantities::ratio, "n of f(t)", of_item(&WeldFatigue::thickness_exponent)},
+      {"angle", quantities::angle, "of the governing direction from the toe's normal", "angle",
+       of_item(&WeldFatigue::angle_rad)},
+      {"principal", quantities::flag, "that direction is a principal one of the range",
+       of_item(&WeldFatigue::is_principal)},
+      Field("class", quantities::stress, "FAT class of IIW", "FAT", of_item(&WeldFatigue::class_Pa))
+          .digits("{:.0f}"),
+      {"damage_per_turn", quantities::count, "of the drive", of_item(&WeldFatigue::damage_per_turn)},
   };
   const FieldTable<WeldRow> shares{
       Field("effect_share_of_range", quantities::percentages, "by effect", shares_of_amplitude<WeldRow>)
@@ -215,29 +197,25 @@ FieldTable<WeldRow> weld_fields() {
 FieldTable<DinRow> din_743_fields() {
   using Field = FieldOf<DinRow>;
   const FieldTable<DinRow> place{
-      Field("feature", quantities::text, "the fillet", [](const DinRow& r) { return r.item.fillet; })
-          .labelled("DIN 743, nominal stresses: fillet"),
-      Field("z", quantities::length, "of the section", [](const DinRow& r) { return number(r.item.z_m); }),
-      Field("diameter", quantities::length, "of the section",
-            [](const DinRow& r) { return number(r.item.diameter_m); }),
+      {"feature", quantities::text, "the fillet", "DIN 743, nominal stresses: fillet",
+       of_item(&NominalFatigue::fillet)},
+      {"z", quantities::length, "of the section", of_item(&NominalFatigue::z_m)},
+      {"diameter", quantities::length, "of the section", of_item(&NominalFatigue::diameter_m)},
   };
   const FieldTable<DinRow> safety{
-      Field("stress_error", quantities::percent, "of the shape factors; null: not known",
-            [](const DinRow& r) { return number_or_none(r.item.error_share); })
-          .labelled("error of factors"),
-      Field("safety_against_fatigue", quantities::ratio, "DIN asks for 1.2",
+      {"stress_error", quantities::percent, "of the shape factors; null: not known", "error of factors",
+       [](const DinRow& r) { return number_or_none(r.item.error_share); }},
+      Field("safety_against_fatigue", quantities::ratio, "DIN asks for 1.2", "fatigue safety (least)",
             [](const DinRow& r) { return number_or_none(r.item.safety.fatigue); })
-          .labelled("fatigue safety (least)")
           .shown_as([](const Json& row) {
             return safety_of_row(row, "safety_against_fatigue", "safety_against_fatigue_least");
           }),
-      Field("safety_against_fatigue_least", quantities::ratio, "what the error of the factors leaves of it",
-            [](const DinRow& r) {
-              return r.item.least_safety ? number_or_none(*r.item.least_safety) : Json(nullptr);
-            }),
-      Field("safety_against_yielding", quantities::ratio, "likewise",
-            [](const DinRow& r) { return number_or_none(r.item.safety.yielding); })
-          .labelled("yield safety"),
+      {"safety_against_fatigue_least", quantities::ratio, "what the error of the factors leaves of it",
+       [](const DinRow& r) {
+         return r.item.least_safety ? number_or_none(*r.item.least_safety) : Json(nullptr);
+       }},
+      {"safety_against_yielding", quantities::ratio, "likewise", "yield safety",
+       [](const DinRow& r) { return number_or_none(r.item.safety.yielding); }},
   };
   auto fields = place;
   for (const auto& kind : {din_kind("tension", &DinTriple::tension), din_kind("bending", &DinTriple::bending),
@@ -249,25 +227,20 @@ FieldTable<DinRow> din_743_fields() {
 FieldTable<RankedPlace> ranking_fields() {
   using Field = FieldOf<RankedPlace>;
   const FieldTable<RankedPlace> place{
-      Field("body", quantities::text, "name of the body", [](const RankedPlace& r) { return r.body; })
-          .labelled("body"),
-      Field("feature", quantities::text, "or weld toe", [](const RankedPlace& r) { return r.feature; })
-          .labelled("place"),
-      Field("weld_toe", quantities::flag, "whether it is one", [](const RankedPlace& r) { return r.is_weld; })
-          .labelled("weld toe"),
+      {"body", quantities::text, "name of the body", "body", &RankedPlace::body},
+      {"feature", quantities::text, "or weld toe", "place", &RankedPlace::feature},
+      {"weld_toe", quantities::flag, "whether it is one", "weld toe", &RankedPlace::is_weld},
   };
   const FieldTable<RankedPlace> used{
-      Field("utilisation", quantities::percent, "of what is allowed; toes have none",
+      Field("utilisation", quantities::percent, "of what is allowed; toes have none", "used (most)",
             [](const RankedPlace& r) { return r.utilisation ? number(*r.utilisation) : Json(nullptr); })
-          .labelled("used (most)")
           .shown_as(utilisation_of_row),
-      Field("utilisation_most", quantities::percent, "what the whole error makes of it",
-            [](const RankedPlace& r) {
-              return r.utilisation ? number_or_none(*r.utilisation * (1 + r.error_share)) : Json(nullptr);
-            }),
+      {"utilisation_most", quantities::percent, "what the whole error makes of it",
+       [](const RankedPlace& r) {
+         return r.utilisation ? number_or_none(*r.utilisation * (1 + r.error_share)) : Json(nullptr);
+       }},
   };
-  const auto life = life_fields<RankedPlace>([](const RankedPlace& r) { return r.life_s; },
-                                             [](const RankedPlace& r) { return r.certainty; });
+  const auto life = life_fields<RankedPlace>(&RankedPlace::life_s, &RankedPlace::certainty);
   return without_csv(joined(joined(place, life), used));
 }
 

@@ -24,12 +24,12 @@ struct RankedPlace {
   std::string body, feature;
   bool is_weld = false;
   std::optional<double> life_s;       ///< none: endures
-  LifeCertainty certainty;            ///< of the life
-  std::optional<double> utilisation;  ///< of what is allowed; toes have none
+  LifeCertainty certainty;            ///< certainty of the life
+  std::optional<double> utilisation;  ///< share of what is allowed; toes have none
   double error_share = 0;             ///< whole error of the stress; infinite: not known
 };
 
-/// Of all bodies by rising life: fatigue_ranking.
+/// Fields of the places of all bodies by rising life: fatigue_ranking.
 FieldTable<RankedPlace> ranking_fields();
 
 /// "12.3% (15.1%)": what a row of summary.json uses of what is allowed, and at most by its error.

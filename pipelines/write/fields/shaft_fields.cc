@@ -13,13 +13,11 @@ namespace {
 using summary::Json, summary::figure, summary::number, summary::number_or_none;
 
 FieldTable<SectionRow> plane_fields() {
-  using Field = FieldOf<SectionRow>;
   return {
-      Field("z", quantities::length, "of the plane", [](const auto& r) { return r.section.plane.z_m; }),
-      Field("segment", quantities::text, "of the contour",
-            [](const auto& r) { return r.section.plane.segment; }),
-      Field("diameter", quantities::length, "of the plane",
-            [](const auto& r) { return 2 * r.section.plane.radius_m; }),
+      {"z", quantities::length, "of the plane", [](const auto& r) { return r.section.plane.z_m; }},
+      {"segment", quantities::text, "of the contour", [](const auto& r) { return r.section.plane.segment; }},
+      {"diameter", quantities::length, "of the plane",
+       [](const auto& r) { return 2 * r.section.plane.radius_m; }},
   };
 }
 
@@ -34,16 +32,15 @@ double longest(const Eigen::Array2Xd& over_the_cycle) {
 
 FieldTable<SectionRow> extremes_of_torque(const std::string& ending, const std::string& meaning,
                                           SectionHistory SectionResult::*by) {
-  using Field = FieldOf<SectionRow>;
   return {
-      Field("V_max" + ending, quantities::force, "largest shear force over the cycle" + meaning,
-            [=](const auto& r) { return largest_pair(r.section.*by, 0); }),
-      Field("M_max" + ending, quantities::torque, "largest bending moment" + meaning,
-            [=](const auto& r) { return largest_pair(r.section.*by, 3); }),
-      Field("T_max" + ending, quantities::torque, "largest torque" + meaning,
-            [=](const auto& r) { return (r.section.*by).row(5).maxCoeff(); }),
-      Field("T_min" + ending, quantities::torque, "least torque" + meaning,
-            [=](const auto& r) { return (r.section.*by).row(5).minCoeff(); }),
+      {"V_max" + ending, quantities::force, "largest shear force over the cycle" + meaning,
+       [=](const auto& r) { return largest_pair(r.section.*by, 0); }},
+      {"M_max" + ending, quantities::torque, "largest bending moment" + meaning,
+       [=](const auto& r) { return largest_pair(r.section.*by, 3); }},
+      {"T_max" + ending, quantities::torque, "largest torque" + meaning,
+       [=](const auto& r) { return (r.section.*by).row(5).maxCoeff(); }},
+      {"T_min" + ending, quantities::torque, "least torque" + meaning,
+       [=](const auto& r) { return (r.section.*by).row(5).minCoeff(); }},
   };
 }
 
@@ -58,14 +55,13 @@ using SectionSeries = Eigen::ArrayXd (*)(const SectionResult&);
 
 FieldTable<SectionRow> over_the_cycle(const std::string& name, const Quantity& quantity,
                                       const std::string& meaning, SectionSeries series) {
-  using Field = FieldOf<SectionRow>;
   return {
-      Field(name + "_max", quantity, meaning + ", largest over the cycle",
-            [=](const auto& r) { return series(r.section).maxCoeff(); }),
-      Field(name + "_min", quantity, "least", [=](const auto& r) { return series(r.section).minCoeff(); }),
-      Field(name + "_mean", quantity, "mean", [=](const auto& r) { return series(r.section).mean(); }),
-      Field(name + "_rms", quantity, "root mean square",
-            [=](const auto& r) { return root_mean_square(series(r.section)); }),
+      {name + "_max", quantity, meaning + ", largest over the cycle",
+       [=](const auto& r) { return series(r.section).maxCoeff(); }},
+      {name + "_min", quantity, "least", [=](const auto& r) { return series(r.section).minCoeff(); }},
+      {name + "_mean", quantity, "mean", [=](const auto& r) { return series(r.section).mean(); }},
+      {name + "_rms", quantity, "root mean square",
+       [=](const auto& r) { return root_mean_square(series(r.section)); }},
   };
 }
 
@@ -84,12 +80,11 @@ FieldTable<ElementTorsion> course_fields(const std::string& key, const Quantity&
                                          const std::string& meaning, const CourseTitles& titles,
                                          const CourseOf& course_of) {
   const auto part = [&](const char* name, const char* title, const std::string& what, double Course::*of) {
-    return FieldOf<ElementTorsion>(key + name, quantity, what,
+    return FieldOf<ElementTorsion>(key + name, quantity, what, title,
                                    [=](const ElementTorsion& e) {
                                      const Course* course = course_of(e);
                                      return course != nullptr ? number(course->*of) : Json(nullptr);
                                    })
-        .labelled(title)
         .optional();
   };
   const std::string si_unit = quantity.one == 1 ? quantity.unit : "Pa";
@@ -115,13 +110,13 @@ std::string place_of_start(const Json& row) {
          (safety.is_number() ? ", safety against yield " + fixed(safety.get<double>(), 2) : "");
 }
 
-/// With the unit that people read, "12.5 N m".
+/// Figure of a start with the unit that people read, "12.5 N m".
 std::string figure_of_start(const Json& row, const char* key) {
   const auto shown = shown_unit(row.at("unit").get<std::string>());
   return fmt::format("{:.4g} {}", row.at(key).get<double>() / shown.one, shown.unit);
 }
 
-/// Likewise, with the error where there is one, "105.2 +- 3.4 MPa".
+/// Largest of a start with its unit, and the error where there is one, "105.2 +- 3.4 MPa".
 std::string largest_of_start(const Json& row) {
   if (!row.contains("error")) return figure_of_start(row, "value");
   const auto& error = row.at("error");
@@ -132,16 +127,15 @@ std::string largest_of_start(const Json& row) {
 }  // namespace
 
 FieldTable<SectionRow> section_fields() {
-  using Field = FieldOf<SectionRow>;
   const FieldTable<SectionRow> normal{
-      Field("N_max", quantities::force, "largest normal force over the cycle",
-            [](const auto& r) { return r.section.by_stress.row(2).abs().maxCoeff(); })};
+      {"N_max", quantities::force, "largest normal force over the cycle",
+       [](const auto& r) { return r.section.by_stress.row(2).abs().maxCoeff(); }}};
   const FieldTable<SectionRow> axis{
-      Field("deflection_max", quantities::length,
-            "of the axis, against the line through the bearings (the clamp; the body's mean motion)",
-            [](const auto& r) { return longest(r.section.deflection_m); }),
-      Field("slope_max", quantities::angle, "rotation of the section, without the angle of shear; likewise",
-            [](const auto& r) { return longest(r.section.slope_rad); }),
+      {"deflection_max", quantities::length,
+       "of the axis, against the line through the bearings (the clamp; the body's mean motion)",
+       [](const auto& r) { return longest(r.section.deflection_m); }},
+      {"slope_max", quantities::angle, "rotation of the section, without the angle of shear; likewise",
+       [](const auto& r) { return longest(r.section.slope_rad); }},
   };
   FieldTable<SectionRow> peak;
   const std::pair<const char*, const Quantity&> resultants[] = {
@@ -181,27 +175,22 @@ FieldTable<SectionRow> torsion_fields() {
 FieldTable<SeatMotion> seat_fields() {
   using Field = FieldOf<SeatMotion>;
   return without_csv(FieldTable<SeatMotion>{
-      Field("z", quantities::length, "of its middle", [](const auto& s) { return s.z_m; }),
-      Field("max_deflection", quantities::length, "of the axis, as in `diagrams.csv`",
-            [](const auto& s) { return s.max_deflection_m; })
-          .digits("{:.4f}")
-          .labelled("deflection"),
-      Field("max_slope", quantities::angle, "likewise", [](const auto& s) { return s.max_slope_rad; })
-          .digits("{:.4f}")
-          .labelled("slope"),
+      {"z", quantities::length, "of its middle", &SeatMotion::z_m},
+      Field("max_deflection", quantities::length, "of the axis, as in `diagrams.csv`", "deflection",
+            &SeatMotion::max_deflection_m)
+          .digits("{:.4f}"),
+      Field("max_slope", quantities::angle, "likewise", "slope", &SeatMotion::max_slope_rad).digits("{:.4f}"),
   });
 }
 
 FieldTable<ElementTorsion> element_torque_fields() {
   using Field = FieldOf<ElementTorsion>;
-  const FieldTable<ElementTorsion> port{Field("port", quantities::text, "on the shaft", [](const auto& e) {
-                                          return e.port;
-                                        }).labelled("at port")};
+  const FieldTable<ElementTorsion> port{
+      {"port", quantities::text, "on the shaft", "at port", [](const auto& e) { return e.port; }}};
   const FieldTable<ElementTorsion> difference{
-      Field("largest_difference", as_figure(quantities::torque), "of both, over the cycle",
+      Field("largest_difference", as_figure(quantities::torque), "of both, over the cycle", "difference",
             [](const auto& e) { return figure(e.largest_difference_Nm, "N m"); })
-          .digits("{:.2g}")
-          .labelled("difference")};
+          .digits("{:.2g}")};
   auto fields = port;
   for (const auto& part :
        {course_fields("torque", torque_part, "on the shaft, counter-clockwise",
@@ -218,9 +207,8 @@ FieldTable<ElementTorsion> element_torque_fields() {
 FieldTable<ElementTorsion> element_stress_fields() {
   using Field = FieldOf<ElementTorsion>;
   const FieldTable<ElementTorsion> place{
-      Field("largest_stress.feature", quantities::text, "of the ring",
+      Field("largest_stress.feature", quantities::text, "of the ring", "where",
             [](const auto& e) { return e.largest ? Json(e.largest->ring.feature) : Json(nullptr); })
-          .labelled("where")
           .shown_as(
               [](const Json& row) { return place_of_ring(row.value("largest_stress", Json::object())); })
           .optional(),
@@ -229,9 +217,8 @@ FieldTable<ElementTorsion> element_stress_fields() {
           .optional(),
   };
   const FieldTable<ElementTorsion> factor{
-      Field("largest_stress.factor", quantities::ratio, "largest over nominal stress at that instant",
+      Field("largest_stress.factor", quantities::ratio, "largest over nominal stress at that instant", "K_ts",
             [](const auto& e) { return e.largest ? number(e.largest->factor) : Json(nullptr); })
-          .labelled("K_ts")
           .optional()};
   auto fields = course_fields(
       "largest_stress", stress_part, "torsional stress at the ring stressed most of those next to the port",
@@ -249,28 +236,21 @@ FieldTable<ElementTorsion> element_stress_fields() {
 FieldTable<StartUpRow> start_up_fields() {
   using Field = FieldOf<StartUpRow>;
   return without_csv(FieldTable<StartUpRow>{
-      Field("value", own_unit, "largest over the start; a torque with its sign",
+      Field("value", own_unit, "largest over the start; a torque with its sign", "largest",
             [](const auto& r) { return number(r.figure.largest); })
-          .labelled("largest")
           .shown_as(largest_of_start),
-      Field("unit", quantities::text, "of both values", [](const auto& r) { return r.unit; }),
-      Field("time", quantities::time, "from standstill",
-            [](const auto& r) { return number(r.figure.time_s); })
-          .labelled("at"),
-      Field("steady", own_unit, "largest size in steady running",
+      {"unit", quantities::text, "of both values", &StartUpRow::unit},
+      {"time", quantities::time, "from standstill", "at",
+       [](const auto& r) { return number(r.figure.time_s); }},
+      Field("steady", own_unit, "largest size in steady running", "steady",
             [](const auto& r) { return number(r.figure.steady); })
-          .labelled("steady")
           .shown_as([](const Json& row) { return figure_of_start(row, "steady"); }),
-      Field("factor", quantities::ratio, "of both; null: nothing in steady running",
-            [](const auto& r) {
-              return r.figure.steady > 0 ? number_or_none(r.figure.factor()) : Json(nullptr);
-            })
-          .labelled("factor"),
-      Field("feature", quantities::text, "where",
+      {"factor", quantities::ratio, "of both; null: nothing in steady running", "factor",
+       [](const auto& r) { return r.figure.steady > 0 ? number_or_none(r.figure.factor()) : Json(nullptr); }},
+      Field("feature", quantities::text, "where", "where",
             [](const auto& r) {
               return r.element ? Json(nullptr) : Json(r.peak ? r.peak->feature : r.ring->feature);
             })
-          .labelled("where")
           .shown_as(place_of_start)
           .optional(),
       Field("z", quantities::length, "of the ring",
@@ -283,18 +263,16 @@ FieldTable<StartUpRow> start_up_fields() {
 }
 
 FieldTable<StartUpRow> start_up_peak_fields() {
-  using Field = FieldOf<StartUpRow>;
   return without_csv(FieldTable<StartUpRow>{
-      Field("place", quantities::text, "kind of surface, as in `zones.csv`",
-            [](const auto& r) { return to_string(r.peak->place); }),
-      Field("position", quantities::position, "body frame", [](const auto& r) { return r.peak->position_m; }),
-      Field("safety_against_yield", quantities::ratio, "yield strength over it; null: no stress",
-            [](const auto& r) { return number_or_none(r.peak->safety); }),
-      Field("error", own_unit,
-            "numerical, by the share known of that place in steady running; null: not known",
-            [](const auto& r) { return number_or_none(r.peak->error_share * r.figure.largest); }),
-      Field("effect_share", quantities::percentages, "of that stress, by effect",
-            [](const auto& r) { return effect_shares_json(r.peak->effects, r.peak->effect_share); }),
+      {"place", quantities::text, "kind of surface, as in `zones.csv`",
+       [](const auto& r) { return to_string(r.peak->place); }},
+      {"position", quantities::position, "body frame", [](const auto& r) { return r.peak->position_m; }},
+      {"safety_against_yield", quantities::ratio, "yield strength over it; null: no stress",
+       [](const auto& r) { return number_or_none(r.peak->safety); }},
+      {"error", own_unit, "numerical, by the share known of that place in steady running; null: not known",
+       [](const auto& r) { return number_or_none(r.peak->error_share * r.figure.largest); }},
+      {"effect_share", quantities::percentages, "of that stress, by effect",
+       [](const auto& r) { return effect_shares_json(r.peak->effects, r.peak->effect_share); }},
   });
 }
 

@@ -13,7 +13,7 @@ namespace pipelines {
 
 struct SectionRow {
   const SectionResult& section;
-  std::int32_t instant;  ///< of the body's peak
+  std::int32_t instant;  ///< instant of the body's peak
 };
 
 /// Section planes: diagrams.csv.
@@ -22,7 +22,7 @@ FieldTable<SectionRow> section_fields();
 /// Torsion at the same planes: torsion.csv.
 FieldTable<SectionRow> torsion_fields();
 
-/// bodies.<body>.seats.<port>.
+/// Fields of bodies.<body>.seats.<port>.
 FieldTable<SeatMotion> seat_fields();
 
 /// Torques of a train's elements on the shaft: bodies.<body>.torsion.elements.<element>.
@@ -31,19 +31,19 @@ FieldTable<ElementTorsion> element_torque_fields();
 /// Stress at the ring next to the element's port, there too.
 FieldTable<ElementTorsion> element_stress_fields();
 
-/// A figure of a start beside steady running: of one of three.
+/// A figure of a start beside steady running, which belongs to one of the three below.
 struct StartUpRow {
   const StartUpFigure& figure;
-  std::string unit;  ///< of the figure, SI
+  std::string unit;  ///< SI unit of the figure
   const StartUpStress* peak = nullptr;
   const StartUpRing* ring = nullptr;
   const StartUpElement* element = nullptr;
 };
 
-/// bodies.<body>.start_up: peak_von_mises, torsional_stress, elements.<element>.
+/// Fields of bodies.<body>.start_up: peak_von_mises, torsional_stress, elements.<element>.
 FieldTable<StartUpRow> start_up_fields();
 
-/// What peak_von_mises has besides.
+/// Fields that peak_von_mises has besides.
 FieldTable<StartUpRow> start_up_peak_fields();
 
 }  // namespace pipelines

@@ -46,29 +46,28 @@ std::string stress_text(const Json& value_Pa, const Json& error_Pa) {
 /// A stress beside its error `<error>_Pa`.
 template <typename Row>
 FieldOf<Row> beside_error(FieldOf<Row> field, const std::string& label, const char* error) {
-  return field.labelled(label + " " + field.quantity.unit)
-      .shown_as([value = field.json_key(), error = std::string(error) + "_Pa"](const Json& row) {
-        return stress_text(item_of(row, value.c_str()), item_of(row, error.c_str()));
-      });
+  field.label = label + " " + field.quantity.unit;
+  return field.shown_as([value = field.json_key(), error = std::string(error) + "_Pa"](const Json& row) {
+    return stress_text(item_of(row, value.c_str()), item_of(row, error.c_str()));
+  });
 }
 
-/// "turn 4, 30 deg"
+/// The moment of a row, "turn 4, 30 deg".
 std::string moment_of_row(const Json& row) {
   const auto &turn = item_of(row, "turn"), &angle_rad = item_of(row, "drive_angle_rad");
   if (!turn.is_number() || !angle_rad.is_number()) return "-";
   return fmt::format("turn {}, {:.0f} deg", turn.get<int>(), angle_rad.get<double>() * 180 / pi);
 }
 
-/// Of rows with an instant.
+/// Fields of the moment for rows with an instant.
 template <typename Row>
 FieldTable<Row> moment_fields() {
   const auto moment = [](const Row& r) { return moment_of(r.body.scene, r.body.loads, r.item.instant); };
   return {FieldOf<Row>("turn", quantities::count, "turn of the drive with the largest stress, from 1",
                        [=](const Row& r) { return moment(r).turn; }),
-          FieldOf<Row>("drive_angle", quantities::angle, "within that turn",
-                       [=](const Row& r) { return moment(r).angle_rad; })
-              .labelled("moment")
-              .shown_as(moment_of_row)};
+          FieldOf<Row>("drive_angle", quantities::angle, "within that turn", "moment", [=](const Row& r) {
+            return moment(r).angle_rad;
+          }).shown_as(moment_of_row)};
 }
 
 /// Groups only where one of them has several effects, as of the peak.
@@ -84,7 +83,7 @@ Json shares_json(const ChannelHistory& loads, const StressShares& shares) {
   return json;
 }
 
-/// Of a zone on the surface, where fatigue is asked for; shares where something changes.
+/// Damage of a zone on the surface, where fatigue is asked for; shares where something changes.
 Json damage_json(const ChannelHistory& loads, const ZoneDamage& damage) {
   if (!damage.is_on_surface) return nullptr;
   Json json = object({{"damage_per_turn", number(damage.damage_per_turn)},
@@ -237,9 +236,9 @@ std::string figure_text(const Json& of) {
 
 /// @param get  a figure, with place and moment
 FieldOf<BodyResult> headline(const char* key, const char* label, const char* meaning,
-                             std::function<Json(const BodyResult&)> get) {
-  const FieldOf<BodyResult> field(key, quantities::structure, meaning, std::move(get));
-  return field.labelled(label).shown_as([=](const Json& body) { return figure_text(value_of(body, field)); });
+                             Json (*get)(const BodyResult&)) {
+  const FieldOf<BodyResult> field(key, quantities::structure, meaning, label, get);
+  return field.shown_as([=](const Json& body) { return figure_text(value_of(body, field)); });
 }
 
 /// "fillet a/b (free surface), (1.0, 2.0, 3.0) mm", "fillet a/b, z = 38.9 mm"
@@ -260,33 +259,25 @@ std::string where_of(const Json& of) {
 FieldTable<ZoneFigures> zone_figure_fields() {
   using Field = FieldOf<ZoneFigures>;
   return {
-      Field("feature", quantities::text, "surface of the peak, or the nearest one",
-            [](const ZoneFigures& z) { return z.feature; })
-          .labelled("zone")
+      Field("feature", quantities::text, "surface of the peak, or the nearest one", "zone",
+            &ZoneFigures::feature)
           .shown_as(name_of_zone),
-      Field("place", quantities::text,
-            "`under seat pressure`, `under the charge's pressure` (a mill's inner wall), `free surface` or "
-            "`interior`",
-            [](const ZoneFigures& z) { return z.place; })
-          .labelled("surface"),
-      beside_error(Field("peak_von_mises", quantities::stress, "largest in the zone",
-                         [](const ZoneFigures& z) { return number(z.peak_Pa); }),
+      {"place", quantities::text,
+       "`under seat pressure`, `under the charge's pressure` (a mill's inner wall), `free surface` or "
+       "`interior`",
+       "surface", &ZoneFigures::place},
+      beside_error(Field("peak_von_mises", quantities::stress, "largest in the zone", &ZoneFigures::peak_Pa),
                    "peak", "error"),
       Field("error", quantities::stress,
             "all that a finer mesh or a more expensive model lowers; may be empty beyond the first ten zones",
             [](const ZoneFigures& z) { return number_or_none(z.error_Pa); })
           .in_column("peak_error"),
-      Field("safety_against_yield", quantities::ratio, "yield strength over the peak",
-            [](const ZoneFigures& z) { return number_or_none(z.safety); })
-          .labelled("safety"),
-      Field("position", quantities::position, "of the peak, body frame",
-            [](const ZoneFigures& z) { return z.peak_m; })
-          .labelled("position"),
-      Field("nodes", quantities::count, "nodes of the mesh in the zone",
-            [](const ZoneFigures& z) { return z.n_nodes; }),
-      Field("volume", quantities::volume, "above the level; empty for a beam",
+      {"safety_against_yield", quantities::ratio, "yield strength over the peak", "safety",
+       [](const ZoneFigures& z) { return number_or_none(z.safety); }},
+      {"position", quantities::position, "of the peak, body frame", "position", &ZoneFigures::peak_m},
+      {"nodes", quantities::count, "nodes of the mesh in the zone", &ZoneFigures::n_nodes},
+      Field("volume", quantities::volume, "above the level; empty for a beam", "volume mm3",
             [](const ZoneFigures& z) { return number_or_none(z.volume_m3); })
-          .labelled("volume mm3")
           .shown_as(volume_of_row),
   };
 }
@@ -296,7 +287,7 @@ FieldTable<ZoneRow> zone_fields() {
   const FieldTable<ZoneRow> rank{
       {"zone", quantities::count, "rank by peak, from 1", [](const ZoneRow& r) { return r.index + 1; }}};
   const FieldTable<ZoneRow> volume_error{{"volume_error", quantities::volume,
-                                          "numerical: [its estimate](../../README.md#volumes-of-zones); not "
+                                          "numerical: [its estimate](../../judge/README.md#volumes); not "
                                           "below `volume` where the zone may not be there; empty for "
                                           "a beam",
                                           [](const ZoneRow& r) {
@@ -305,17 +296,15 @@ FieldTable<ZoneRow> zone_fields() {
                                                        : Json(nullptr);
                                           }}};
   const FieldTable<ZoneRow> others{
-      Field("stress", quantities::stress_tensor, "tensor at the peak and moment",
-            [](const ZoneRow& r) { return r.item.stress_Pa; })
+      Field("stress", quantities::stress_tensor, "tensor at the peak and moment", of_item(&Zone::stress_Pa))
           .in_column("sigma"),
-      Field("causes", quantities::structure, "[what brings it](../../README.md#what-brings-a-zone)", causes_json)
+      Field("causes", quantities::structure, "[what brings it](../../judge/README.md#causes)", causes_json)
           .detail("brought by")
           .shown_as(causes_of_row),
-      Field("parts", quantities::structure, "as `zone_tree.csv`",
-            [](const ZoneRow& r) {
-              return r.item.parts.empty() ? Json(nullptr)
-                                          : summary_rows(zone_part_fields(), r.body, r.item.parts);
-            }),
+      {"parts", quantities::structure, "as `zone_tree.csv`",
+       [](const ZoneRow& r) {
+         return r.item.parts.empty() ? Json(nullptr) : summary_rows(zone_part_fields(), r.body, r.item.parts);
+       }},
   };
   const auto figures = fields_of_part<ZoneRow>(
       zone_figure_fields(), [](const ZoneRow& r) { return figures_of(r.body.analysis, r.item); });
@@ -323,29 +312,19 @@ FieldTable<ZoneRow> zone_fields() {
 }
 
 FieldTable<PartRow> zone_part_fields() {
-  using Field = FieldOf<PartRow>;
   const FieldTable<PartRow> peak{
-      Field(
-          "zone", quantities::text,
-          "`1`, its parts `1.1`, `1.2` ... at the next level, `1.1.1` ... at the one after that; by peak. A "
-          "text: `1.10` is not `1.1`",
-          [](const PartRow& r) { return r.item.number; })
-          .labelled("part"),
-      Field("level", quantities::stress, "that all of its nodes reach",
-            [](const PartRow& r) { return number(r.item.level_Pa); })
-          .labelled("above"),
-      Field("feature", quantities::text, "as in `zones.csv`", [](const PartRow& r) { return r.item.feature; })
-          .labelled("where"),
-      Field("place", quantities::text, "likewise", [](const PartRow& r) { return to_string(r.item.place); }),
-      Field("peak_von_mises", quantities::stress, "largest in the part",
-            [](const PartRow& r) { return number(r.item.peak_Pa); })
-          .labelled("peak"),
+      {"zone", quantities::text,
+       "`1`, its parts `1.1`, `1.2` ... at the next level, `1.1.1` ... at the one after that; by peak. A "
+       "text: `1.10` is not `1.1`",
+       "part", of_item(&ZonePart::number)},
+      {"level", quantities::stress, "that all of its nodes reach", "above", of_item(&ZonePart::level_Pa)},
+      {"feature", quantities::text, "as in `zones.csv`", "where", of_item(&ZonePart::feature)},
+      {"place", quantities::text, "likewise", [](const PartRow& r) { return to_string(r.item.place); }},
+      {"peak_von_mises", quantities::stress, "largest in the part", "peak", of_item(&ZonePart::peak_Pa)},
   };
   const FieldTable<PartRow> others{
-      Field("position", quantities::position, "of the peak", [](const PartRow& r) { return r.item.peak_m; })
-          .labelled("position"),
-      Field("nodes", quantities::count, "nodes of the mesh in the part",
-            [](const PartRow& r) { return r.item.n_nodes; }),
+      {"position", quantities::position, "of the peak", "position", of_item(&ZonePart::peak_m)},
+      {"nodes", quantities::count, "nodes of the mesh in the part", of_item(&ZonePart::n_nodes)},
   };
   return joined(joined(peak, moment_fields<PartRow>()), others);
 }
@@ -353,12 +332,10 @@ FieldTable<PartRow> zone_part_fields() {
 FieldTable<ToeRow> hot_spot_fields() {
   using Field = FieldOf<ToeRow>;
   const FieldTable<ToeRow> stress{
-      Field("name", quantities::text, "plate and place of the toe",
-            [](const ToeRow& r) { return r.item.name; })
-          .in_column("hot_spot")
-          .labelled("weld toe"),
+      Field("name", quantities::text, "plate and place of the toe", "weld toe", of_item(&HotSpotStress::name))
+          .in_column("hot_spot"),
       beside_error(Field("von_mises", quantities::stress, "largest hot-spot stress",
-                         [](const ToeRow& r) { return number(r.item.von_mises_Pa); })
+                         of_item(&HotSpotStress::von_mises_Pa))
                        .in_column("von_mises_max"),
                    "von Mises", "error"),
       Field("error", quantities::stress,
@@ -368,15 +345,11 @@ FieldTable<ToeRow> hot_spot_fields() {
           .in_column("von_mises_error"),
   };
   const FieldTable<ToeRow> normal{
-      {"normal_max", quantities::stress, "largest across the toe",
-       [](const ToeRow& r) { return number(r.item.max_normal_Pa); }},
-      {"normal_min", quantities::stress, "least across the toe",
-       [](const ToeRow& r) { return number(r.item.min_normal_Pa); }},
-      Field("normal_range", quantities::stress, "the difference of both, which fatigue counts",
-            [](const ToeRow& r) { return number(r.item.max_normal_Pa - r.item.min_normal_Pa); })
-          .labelled("range across"),
-      {"position", quantities::position, "of the toe, body frame",
-       [](const ToeRow& r) { return r.item.toe_m; }},
+      {"normal_max", quantities::stress, "largest across the toe", of_item(&HotSpotStress::max_normal_Pa)},
+      {"normal_min", quantities::stress, "least across the toe", of_item(&HotSpotStress::min_normal_Pa)},
+      {"normal_range", quantities::stress, "the difference of both, which fatigue counts", "range across",
+       [](const ToeRow& r) { return number(r.item.max_normal_Pa - r.item.min_normal_Pa); }},
+      {"position", quantities::position, "of the toe, body frame", of_item(&HotSpotStress::toe_m)},
       {"extrapolated_from", quantities::structure,
        "nodes with weights whose stress adds up to the toe's; not of submodels",
        [](const ToeRow& r) -> Json {
@@ -400,13 +373,11 @@ FieldTable<ToeRow> hot_spot_fields() {
 FieldTable<RowOf<PlaceStress>> place_fields() {
   using Row = RowOf<PlaceStress>;
   return without_csv(FieldTable<Row>{
-      {"feature", quantities::text, "surface, weld toe, or `inside`",
-       [](const Row& r) { return r.item.feature; }},
-      {"von_mises", quantities::stress, "largest there",
-       [](const Row& r) { return number(r.item.value_Pa); }},
+      {"feature", quantities::text, "surface, weld toe, or `inside`", of_item(&PlaceStress::feature)},
+      {"von_mises", quantities::stress, "largest there", of_item(&PlaceStress::value_Pa)},
       {"error", quantities::stress, "all that a finer mesh or a more expensive model lowers",
        [](const Row& r) { return number_or_none(error_Pa(r.body.analysis, r.item)); }},
-      {"position", quantities::position, "of the maximum", [](const Row& r) { return r.item.position_m; }},
+      {"position", quantities::position, "of the maximum", of_item(&PlaceStress::position_m)},
   });
 }
 

@@ -14,7 +14,7 @@ namespace pipelines {
 /// What zones of runs and of sweeps have.
 FieldTable<ZoneFigures> zone_figure_fields();
 
-/// zones.csv, bodies.<body>.zones.
+/// Fields of zones.csv, bodies.<body>.zones.
 FieldTable<RowOf<Zone>> zone_fields();
 
 /// Zones and their parts: zone_tree.csv, bodies.<body>.zones[].parts.
@@ -23,7 +23,7 @@ FieldTable<RowOf<ZonePart>> zone_part_fields();
 /// Weld toes: hot_spots.csv, bodies.<body>.hot_spots.
 FieldTable<RowOf<HotSpotStress>> hot_spot_fields();
 
-/// bodies.<body>.places.
+/// Fields of bodies.<body>.places.
 FieldTable<RowOf<PlaceStress>> place_fields();
 
 /// The stresses that lead a body's report, as figures of bodies.<body>: each with value, place and moment.
@@ -36,7 +36,7 @@ ShownRows headline_rows(const summary::Json& body);
 
 /// "by belt 83 %, drive 17 %; amplitude 41.9 MPa by belt 100 %", by groups, and where fatigue is asked for
 /// "; damage by belt 100 %". Without shares where there is one effect; empty where nothing is known.
-/// @param zone  of summary.json
+/// @param zone  zone of summary.json
 std::string causes_of_row(const summary::Json& zone);
 
 /// "total" of all sources, "numerical" of those that a finer run would mend, "model" of the others.

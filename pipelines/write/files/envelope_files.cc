@@ -39,7 +39,7 @@ class Fields {
 public:
   explicit Fields(const NodePlaces& places) : places_(places) {}
 
-  /// NaN at excluded nodes.
+  /// Adds a field, NaN at excluded nodes.
   void add_result(const std::string& name, std::vector<double> values, int n_components = 1,
                   const std::vector<std::string>& component_names = {}) {
     const auto n = std::size_t(n_components);
@@ -98,7 +98,7 @@ std::vector<double> hot_spot_values(const Judged& analysis) {
   return values;
 }
 
-/// On the surface; NaN inside, where fatigue is not judged.
+/// Adds utilisation on the surface; NaN inside, where fatigue is not judged.
 void add_fatigue(Fields& fields, const Judged& analysis) {
   const auto& fatigue = *analysis.fatigue;
   const std::size_t n = analysis.responses.nodes.n;

@@ -15,7 +15,7 @@
 
 namespace pipelines {
 
-/// Its largest value in the file is the reported peak.
+/// Name of the field whose largest value is the reported peak.
 inline constexpr const char* von_mises_field = "von Mises stress, maximum [Pa]";
 
 /// Extrapolated to the nodes at weld toes, NaN elsewhere: its largest value is the reported hot-spot stress.

@@ -23,8 +23,7 @@ std::string text_of_manifest(const ManifestJson& json) {
   return json.dump(2, ' ', false, ManifestJson::error_handler_t::replace) + "\n";
 }
 
-/// Of all but itself. Manifests that do not say of what they are, as those of earlier versions, have that of
-/// their list alone.
+/// Checksum of all but itself. Manifests that do not say of what they are have that of their list alone.
 std::string checksum_of(ManifestJson json) {
   json.erase("checksum");
   const auto& covered = json.contains("of") ? json : json.at("files");

@@ -20,7 +20,7 @@ struct ListedFile {
   std::string checksum;  ///< content_hash
 };
 
-/// By names relative to the directory.
+/// Listed files by names relative to the directory.
 using FileList = std::map<std::string, ListedFile>;
 
 /// @return empty without a manifest, or with one that is damaged, not of this program, or that has names
@@ -28,7 +28,7 @@ using FileList = std::map<std::string, ListedFile>;
 ///         lead out of the directory or are hidden
 std::optional<FileList> read_manifest(const OpenDirectory& directory);
 
-/// Of what scene the files of a directory are (variant.h).
+/// The scene, settings and options that made the files of a directory (variant.h).
 struct ResultsOf {
   std::string scene;                                ///< its file, relative to the directory
   std::vector<std::string> settings;                ///< --set, "KEY=VALUE", sorted
@@ -42,7 +42,7 @@ struct ResultsOf {
 /// @return empty without a manifest, or with one that does not say so
 std::optional<ResultsOf> read_results_of(const OpenDirectory& directory);
 
-/// With what is no UTF-8 as it comes back from a manifest.
+/// The same, with what is no UTF-8 as it comes back from a manifest.
 ResultsOf as_json_has_it(ResultsOf of);
 
 /// The whole text of a manifest.
@@ -57,15 +57,16 @@ ListedFile listed_now(const OpenDirectory& directory, const std::string& name);
 /// What a manifest and the files of a run beside it say about each other. Names are relative to the
 /// directory.
 struct ManifestCheck {
-  bool is_there = false;             ///< a manifest
-  bool damaged = false;              ///< it cannot be read, or its own checksum does not fit
-  std::vector<std::string> files;    ///< of a run that it lists, but for report.html, which `report` replaces
-  std::vector<std::string> changed;  ///< of another size or content, or no regular files any more
+  bool is_there = false;  ///< a manifest
+  bool damaged = false;   ///< it cannot be read, or its own checksum does not fit
+  /// Files of a run that it lists, but for report.html, which `report` replaces.
+  std::vector<std::string> files;
+  std::vector<std::string> changed;  ///< files of another size or content, or no regular files any more
   std::vector<std::string> missing;
 
   /// Whether files are there that the run has not written so.
   bool is_mixed() const { return damaged || !changed.empty(); }
-  /// For the user, where it is mixed: the directory and what is wrong.
+  /// Words for the user, where it is mixed: the directory and what is wrong.
   std::string text(const std::filesystem::path& directory) const;
 };
 

@@ -10,18 +10,19 @@ namespace pipelines {
 /// All names that a command may give, those of an earlier call of it with other options too: a file that has
 /// one is either this program's or stops the command.
 struct OutputNames {
-  std::function<bool(const std::string&)> has;  ///< of a file, relative to the directory: "shaft/zones.csv"
-  std::function<bool(const std::string&)> enters;  ///< of a folder: whether files may be in it
+  /// Whether a file may have that name, relative to the directory: "shaft/zones.csv".
+  std::function<bool(const std::string&)> has;
+  std::function<bool(const std::string&)> enters;  ///< whether files may be in the folder of that name
 };
 
-/// Exactly these.
+/// Allows exactly these names.
 OutputNames names_of(std::vector<std::string> names);
 
-/// These in the directory itself.
+/// Allows names of a form in the directory itself.
 /// @param form  a regular expression for the whole name
 OutputNames names_like(const std::string& form);
 
-/// Those of a run, kept files too.
+/// Allows the names of a run, kept files too.
 /// @param bodies  the folders that it will write; it removes results from those of other bodies
 OutputNames run_names(std::vector<std::string> bodies);
 

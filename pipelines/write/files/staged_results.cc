@@ -35,7 +35,7 @@ bool is_page_beside_list(const OpenDirectory& directory, const std::string& name
 }
 
 /// Why a file must not be replaced or removed, as the end of a sentence; empty if it may be, or is not there.
-/// @param lists  of what this program has written, or has ready to take its place
+/// @param lists  lists of what this program has written, or has ready to take its place
 std::string why_foreign(const OpenDirectory& directory, const std::string& name,
                         const std::vector<const FileList*>& lists) {
   if (const auto obstacle = directory.obstacle_before(name); !obstacle.empty())
@@ -133,7 +133,8 @@ void remove_emptied(const OpenDirectory& directory) {
   directory.remove_if_empty(complete_name);
 }
 
-/// With the lock held. A kill at any point leaves what the next call needs.
+/// Moves complete files to their places, with the lock held. A kill at any point leaves what the next call
+/// needs.
 /// @param names  files of `complete` that take their places, the manifest last
 void take_places(const OpenDirectory& directory, const OpenDirectory& complete,
                  const std::vector<std::string>& names, const FileList& results) {

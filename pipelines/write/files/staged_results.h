@@ -26,7 +26,7 @@ namespace pipelines {
 class StagedResults {
 public:
   /// Finishes what a killed run has left, and makes the hidden folder.
-  /// @param names   of all that the command may write
+  /// @param names   names of all that the command may write
   /// @param option  that named the directory
   /// @param variant  what they are of, for the manifest; nothing: what it says stays
   /// @throws OptionError naming option, file and remedy if a file with one of the names is not this program's
@@ -36,7 +36,7 @@ public:
   StagedResults(const StagedResults&) = delete;
   StagedResults& operator=(const StagedResults&) = delete;
 
-  /// Where to write, under the names that the files will have in the directory.
+  /// The folder to write into, under the names that the files will have in the directory.
   std::filesystem::path folder() const { return staging_.folder().path(); }
 
   /// The directory itself, wherever its name leads meanwhile: for what is kept between runs.

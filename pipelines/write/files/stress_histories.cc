@@ -26,7 +26,8 @@ namespace {
 using Eigen::Index;
 using nlohmann::ordered_json;
 
-/// Between what the run states and what its files give: both are sums of the same terms in another order.
+/// Relative agreement of what the run states and what its files give: both are sums of the same terms in
+/// another order.
 constexpr double agreement = 1e-9;
 
 /// A body of the run, with what its stress is superposed from.
@@ -83,7 +84,8 @@ std::size_t node_at(const RunBody& body, const std::array<double, 3>& position_m
   return nearest.node;
 }
 
-/// Of a weld toe; its stress is not in the unit responses where it was solved as a submodel.
+/// Whether the place is a weld toe; its stress is not in the unit responses where it was solved as a
+/// submodel.
 bool has_parts(const ordered_json& place) {
   return place.contains("extrapolated_from") && !place["extrapolated_from"].is_null();
 }
@@ -128,7 +130,7 @@ bool has_hot_spot(const RunBody& body, const std::string& name) {
   return std::any_of(spots.begin(), spots.end(), [&](const auto& spot) { return spot.at("name") == name; });
 }
 
-/// Of surfaces, ports and weld toes that have a history.
+/// Names of surfaces, ports and weld toes that have a history.
 std::vector<std::string> place_names_of(const RunBody& body) {
   std::vector<std::string> names;
   for (const auto& spot : list_of(body, "hot_spots"))

@@ -9,31 +9,31 @@
 
 namespace pipelines {
 
-/// Where a history is taken: at a node, or where a weld toe's stress is extrapolated from.
+/// Point where a history is taken: a node, or where a weld toe's stress is extrapolated from.
 struct HistoryPoint {
   struct Part {
     std::size_t node = 0;  ///< as in unit_responses.h5
     double weight = 1;
   };
   std::string body, name;              ///< "zone 1", a surface or weld toe, "node 12", "(1, 2, 3) mm"
-  std::string feature;                 ///< that it lies on, as the run says; empty where it does not
+  std::string feature;                 ///< feature that it lies on, as the run says; empty where it does not
   std::array<double, 3> position_m{};  ///< in the body's frame; of a toe the toe's own
   std::vector<Part> parts;
   double stated_Pa = 0;      ///< the run's largest von Mises stress there; 0 where it states none
-  double distance_m = 0;     ///< of the node from the place that was asked for
+  double distance_m = 0;     ///< distance of the node from the place that was asked for
   bool is_left_out = false;  ///< beside a sharp edge: the run reports no stress there, as none converges
 };
 
 struct StressHistory {
   HistoryPoint point;
-  Eigen::ArrayXXd
-      stress_Pa;  ///< 6 x instants: xx, yy, zz, xy, yz, xz in the body's frame, which turns with it
+  /// 6 x instants: xx, yy, zz, xy, yz, xz in the body's frame, which turns with it.
+  Eigen::ArrayXXd stress_Pa;
 
-  /// One number per instant.
+  /// Von Mises stress, one value per instant.
   Eigen::ArrayXd von_mises_Pa() const;
   /// Von Mises stress with the sign of the principal stress of largest size.
   Eigen::ArrayXd signed_von_mises_Pa() const;
-  /// 3 x instants, falling.
+  /// Principal stresses, 3 x instants, falling.
   Eigen::ArrayXXd principal_Pa() const;
 };
 

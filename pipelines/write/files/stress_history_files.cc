@@ -36,7 +36,7 @@ std::string group_of(const HistoryPoint& point) {
   return text;
 }
 
-/// Of each point, without an extension; names that would be one get numbers.
+/// File name of each point, without an extension; names that would be one get numbers.
 std::vector<std::string> file_names(const StressHistories& histories) {
   std::vector<std::string> names;
   std::set<std::string> taken;
@@ -60,7 +60,7 @@ StressCycle cycle_of(const StressHistory& history) {
   return largest_cycle(history.stress_Pa, slack);
 }
 
-/// Of an instant in the CSV file, whose first line has the titles.
+/// Line of an instant in the CSV file, whose first line has the titles.
 Index line_of(Index instant) {
   return instant + 2;
 }
@@ -149,7 +149,7 @@ void print_stress_histories(std::ostream& out, const StressHistories& histories,
     out << all.dump(2) << '\n';
     return;
   }
-  std::array<std::size_t, 3> widths{4, 5, 2};  // of body, point and feature
+  std::array<std::size_t, 3> widths{4, 5, 2};  // widths of body, point and feature
   for (const auto& [point, stress_Pa] : histories.points) {
     const std::array<std::size_t, 3> sizes{point.body.size(), point.name.size(), point.feature.size()};
     for (std::size_t c = 0; c < 3; ++c) widths[c] = std::max(widths[c], sizes[c]);

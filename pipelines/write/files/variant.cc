@@ -34,7 +34,7 @@ std::vector<std::string> in_fixed_order(std::vector<std::string> settings) {
   return settings;
 }
 
-/// Of results of an earlier version: the scene's file name, and what --set gave.
+/// Variant of results of an earlier version: the scene's file name, and what --set gave.
 /// @return nothing where there is no summary of a run
 std::optional<ResultsOf> of_summary(const fs::path& directory) {
   const auto json = read_json_file(directory / "summary.json");

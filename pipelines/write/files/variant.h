@@ -22,7 +22,8 @@ struct Variant {
   /// Whether all that a sweep with other options has computed is part of this one; empty: never.
   std::function<bool(const std::vector<std::string>& sweep)> has_all_of{};
 
-  /// As the manifest of a directory has it. A directory that is moved together with its scene stays the same.
+  /// The results as the manifest of a directory has them. A directory that is moved together with its scene
+  /// stays the same.
   ResultsOf in(const std::filesystem::path& directory) const;
 };
 
@@ -33,7 +34,7 @@ struct Variant {
 std::string held_of_another(const std::filesystem::path& directory, const Variant& variant);
 
 /// The same of what a manifest says, by held_of_another in the words of `directory`.
-/// @param held  of the manifest of the directory
+/// @param held  what the manifest of the directory holds
 std::string held_of_another(const std::filesystem::path& directory, const ResultsOf& held,
                             const Variant& variant);
 

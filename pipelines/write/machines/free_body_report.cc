@@ -8,7 +8,7 @@
 
 #include "pipelines/base/common/constants.h"
 #include "pipelines/base/common/errors.h"
-#include "pipelines/base/fields/shown_unit.h"
+#include "pipelines/base/fields/field_outputs.h"
 #include "pipelines/base/files/csv.h"
 #include "pipelines/write/exports/vtk_arrows.h"
 #include "pipelines/write/exports/vtk_files.h"
@@ -24,7 +24,7 @@ double angle_in_turn_deg(double angle_rad) {
   return 360 * (turns - std::floor(turns));
 }
 
-/// About E', counter-clockwise.
+/// Moment of a load about E', counter-clockwise.
 double moment_N_m(const kinetics::FreeBodyLoad& load, Index i) {
   return load.at_m(0, i) * load.force_N(1, i) - load.at_m(1, i) * load.force_N(0, i) + load.couple_N_m[i];
 }
@@ -41,30 +41,10 @@ std::string snapshot_name(Index i) {
   return fmt::format("free_body_{:03}.vtp", i);
 }
 
-void write_table(const std::filesystem::path& file, const kinetics::FreeBody& body) {
-  std::vector<double> time, angle, x, y, fx, fy, couple, moment;
-  std::vector<std::string> names;
-  for (Index i = 0; i < body.time_s.size(); ++i)
-    for (const auto& load : body.loads) {
-      time.push_back(body.time_s[i]);
-      angle.push_back(body.phi_rad[i]);
-      names.push_back(load.name);
-      x.push_back(load.at_m(0, i));
-      y.push_back(load.at_m(1, i));
-      fx.push_back(load.force_N(0, i));
-      fy.push_back(load.force_N(1, i));
-      couple.push_back(load.couple_N_m[i]);
-      moment.push_back(moment_N_m(load, i));
-    }
-  write_csv(file, in_shown_units({{"time", "s", time},
-                                  {"drive_angle", "rad", angle},
-                                  {"load", "", names},
-                                  {"x", "m", x},
-                                  {"y", "m", y},
-                                  {"fx", "N", fx},
-                                  {"fy", "N", fy},
-                                  {"couple", "N m", couple},
-                                  {"moment", "N m", moment}}));
+std::vector<FreeBodyRow> rows_at(const kinetics::FreeBody& body, Index i) {
+  std::vector<FreeBodyRow> rows;
+  for (const auto& load : body.loads) rows.push_back({body, load, i});
+  return rows;
 }
 
 std::vector<std::vector<Point>> outlines(const Scene& scene, const kinetics::FreeBody& body, Index i) {
@@ -89,6 +69,28 @@ std::vector<std::vector<Point>> outlines(const Scene& scene, const kinetics::Fre
 }
 
 }  // namespace
+
+FieldTable<FreeBodyRow> free_body_fields() {
+  using Field = FieldOf<FreeBodyRow>;
+  return {
+      {"time", quantities::time, "of the instant", [](const auto& r) { return r.body.time_s[r.instant]; }},
+      {"drive_angle", quantities::angle, "of the instant",
+       [](const auto& r) { return r.body.phi_rad[r.instant]; }},
+      {"load", quantities::text, "its name", "load, from the eccentric's axis",
+       [](const auto& r) { return r.load.name; }},
+      {"x", quantities::length, "where it acts", "x", [](const auto& r) { return r.load.at_m(0, r.instant); }},
+      {"y", quantities::length, "where it acts", "y", [](const auto& r) { return r.load.at_m(1, r.instant); }},
+      {"fx", quantities::force, "component", "fx", [](const auto& r) { return r.load.force_N(0, r.instant); }},
+      {"fy", quantities::force, "component", "fy", [](const auto& r) { return r.load.force_N(1, r.instant); }},
+      Field("force", quantities::force, "its size, on the terminal alone", "force",
+            [](const auto& r) { return std::hypot(r.load.force_N(0, r.instant), r.load.force_N(1, r.instant)); })
+          .without_csv(),
+      {"couple", quantities::torque, "that acts beside the force",
+       [](const auto& r) { return r.load.couple_N_m[r.instant]; }},
+      {"moment", quantities::torque, "of both about the eccentric's axis", "moment",
+       [](const auto& r) { return moment_N_m(r.load, r.instant); }},
+  };
+}
 
 kinetics::FreeBody free_body(const Scene& scene) {
   const auto* mill = std::get_if<kinetics::VibratoryMill>(&scene.machine);
@@ -137,18 +139,11 @@ void print_free_body(std::ostream& out, const Scene& scene, const kinetics::Free
     out << all.dump(2) << '\n';
     return;
   }
-  out << fmt::format("\n{}: the chamber's free body at {:.4g} deg of the drive, clockwise\n\n", scene.title,
+  out << fmt::format("\n{}: the chamber's free body at {:.4g} deg of the drive, clockwise\n", scene.title,
                      angle_deg);
-  out << fmt::format("  {:<28}{:>10}{:>10}{:>12}{:>12}{:>12}{:>14}\n", "load, from the eccentric's axis",
-                     "x mm", "y mm", "fx N", "fy N", "force N", "moment N m");
-  for (const auto& load : body.loads)
-    out << fmt::format("  {:<31}{:>7.1f}{:>10.1f}{:>12.5g}{:>12.5g}{:>12.5g}{:>14.5g}\n", load.name,
-                       1e3 * load.at_m(0, instant), 1e3 * load.at_m(1, instant), load.force_N(0, instant),
-                       load.force_N(1, instant),
-                       std::hypot(load.force_N(0, instant), load.force_N(1, instant)),
-                       moment_N_m(load, instant));
+  print_list(out, free_body_fields(), rows_at(body, instant));
   const Eigen::Array2Xd sum_N = body.force_sum_N();
-  out << fmt::format("  {:<48}{:>12.5g}{:>12.5g}{:>26.5g}\n", "sum", sum_N(0, instant), sum_N(1, instant),
+  out << fmt::format("  in sum {:.5g} N, {:.5g} N, {:.5g} N m\n", sum_N(0, instant), sum_N(1, instant),
                      body.moment_sum_N_m()[instant]);
   out << fmt::format("\n  over the turn forces close to {:.2g} of the largest, moments to {:.2g}{}\n",
                      closure.force, closure.moment,
@@ -166,6 +161,7 @@ std::optional<double> chamber_radius_m(const Scene& scene) {
 void write_free_body(const std::filesystem::path& directory, const Scene& scene,
                      const kinetics::FreeBody& body) {
   std::vector<PvdEntry> entries;
+  std::vector<FreeBodyRow> rows;
   for (Index i = 0; i < body.time_s.size(); ++i) {
     std::vector<PlacedVector> vectors;
     for (const auto& load : body.loads)
@@ -173,9 +169,11 @@ void write_free_body(const std::filesystem::path& directory, const Scene& scene,
           {load.name, in_space(body, load.at_m, i), {load.force_N(0, i), load.force_N(1, i), 0}});
     write_arrows_vtp(directory / snapshot_name(i), "force [N]", vectors, outlines(scene, body, i));
     entries.push_back({body.time_s[i], snapshot_name(i), ""});
+    for (const auto& row : rows_at(body, i)) rows.push_back(row);
   }
   write_pvd(directory / "free_body.pvd", entries);
-  write_table(directory / "free_body.csv", body);
+  write_csv(directory / "free_body.csv",
+            csv_columns(fields_of(free_body_fields()), whole_rows(free_body_fields(), rows)));
 }
 
 }  // namespace pipelines

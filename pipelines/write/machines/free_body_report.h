@@ -12,7 +12,17 @@
 
 namespace pipelines {
 
-/// Over the first turn of the drive, at the scene's instants.
+/// A load at an instant.
+struct FreeBodyRow {
+  const kinetics::FreeBody& body;
+  const kinetics::FreeBodyLoad& load;
+  Eigen::Index instant;
+};
+
+/// free_body.csv.
+FieldTable<FreeBodyRow> free_body_fields();
+
+/// The free body over the first turn of the drive, at the scene's instants.
 /// @throws StageRefused if the scene's machine is no vibratory mill, or runs up; as kinetics does
 kinetics::FreeBody free_body(const Scene& scene);
 

@@ -102,7 +102,7 @@ void narrow(SpringWindow& window, const SpringLimits& limits, double given_N_m) 
   }
 }
 
-/// All that is found out for one scene.
+/// What is found out for one scene.
 struct SpringStudy {
   double given_N_m = 0, weight_N = 0;
   bool has_pitch = false;

@@ -10,9 +10,10 @@ namespace pipelines {
 
 /// What the springs may be. Nothing is asked for by default; then the neighbouring resonances are the bounds.
 struct SpringLimits {
-  std::optional<double> least_N_m, most_N_m;  ///< of the sum of the vertical stiffnesses
+  std::optional<double> least_N_m, most_N_m;  ///< limits of the sum of the vertical stiffnesses
   std::optional<double> most_transmitted_N;   ///< largest force on the ground, without the weights
-  /// Also beyond the resonances of the pitch next to the given springs, within 0.01 to 100 times these.
+  /// Whether springs are looked for beyond the resonances of the pitch next to the given ones, too, within
+  /// 0.01 to 100 times these.
   bool across_resonances = false;
 };
 

@@ -2,20 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <ostream>
 
 #include "pipelines/base/common/constants.h"
 #include "pipelines/base/fields/shown_unit.h"
 #include "pipelines/base/files/csv.h"
+#include "pipelines/write/fields/train_fields.h"
 #include "pipelines/write/machines/published_torsion.h"
-#include "pipelines/write/machines/torsion_json.h"
 
 namespace pipelines {
 namespace {
 
 using Eigen::Index;
-using Json = nlohmann::ordered_json;
+using summary::Json;
 
 constexpr double two_pi = 2 * pi;
 const char* const phase_sign =
@@ -24,12 +23,6 @@ constexpr double rpm = two_pi / 60;
 
 const kinetics::DriveTrain& train_of(const Scene& scene) {
   return std::get<kinetics::DriveTrain>(scene.machine);
-}
-
-std::string line_name(const kinetics::ExcitationLine& line) {
-  const std::string of = line.order > 0 ? fmt::format("order {:g}", line.order)
-                                        : fmt::format("{:g} Hz", line.frequency_rad_s / two_pi);
-  return line.excitation.empty() ? of : line.excitation + ", " + of;
 }
 
 /// The element that holds most of a mode's potential energy.
@@ -67,24 +60,13 @@ CsvColumn numbers(std::string name, std::string unit, const Eigen::ArrayXd& valu
           std::vector<double>(values.data(), values.data() + values.size())};
 }
 
-/// Those that matter, or all; at least the closest one.
-void print_margins(std::ostream& out, const std::vector<LineMargin>& margins, bool all) {
+/// Prints the margins that matter, or all.
+void print_margins(std::ostream& out, const std::vector<LineMargin>& margins, const Json& json, bool all) {
   if (margins.empty()) return;
-  out << fmt::format("\n  {:<36}{:>12}{:>8}{:>12}{:>10}{:>15}{:>15}\n", "excitation", "Hz", "mode",
-                     "natural Hz", "margin", "amplification", "of the torque");
-  std::size_t n_shown = 0;
-  for (const auto& m : margins) {
-    if (!all && !m.matters() && &m != &margins.front()) continue;
-    ++n_shown;
-    out << fmt::format("  {:<36}{:>12.6g}{:>8}{:>12.6g}{:>9.1f}%{:>15.3g}{:>14.1f}%\n", line_name(m.line),
-                       m.line.frequency_rad_s / two_pi, m.mode, m.natural_frequency_rad_s / two_pi,
-                       100 * m.margin, m.amplification, 100 * m.torque_share);
-  }
-  if (n_shown < margins.size())
-    out << fmt::format(
-        "    and {} more, farther than {:g} % from a natural frequency and below {:g} % of every torque: "
-        "margins.csv, --json, torsion -v\n",
-        margins.size() - n_shown, 100 * near_resonance, 100 * felt_torque_share);
+  const auto rows = shown_margins(json, all);
+  print_rows(out, "excitation", rows);
+  if (const auto text = margins_left_out(margins.size(), rows.cells.size()); !text.empty())
+    out << "    " << text << ": margins.csv, --json, torsion -v\n";
   const bool is_damped =
       std::any_of(margins.begin(), margins.end(), [](const auto& m) { return m.damping_ratio > 0; });
   out << (is_damped ? "    amplification with the damping of the mode\n"
@@ -98,25 +80,20 @@ void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& r
   const auto& train = train_of(scene);
   out << fmt::format("\n{}: {} inertias, reference shaft {} at {:.6g} rpm\n", scene.title,
                      train.inertias.size(), train.reference_shaft, train.reference_speed_rad_s / rpm);
-  out << fmt::format("\n  {:>4}{:>14}{:>14}  {}\n", "mode", "Hz", "rad/s", "most of its potential energy");
   constexpr Index shown = 12;
   const auto& w = report.modes.frequency_rad_s;
+  auto modes = Json::array();
   for (Index k = 0; k < std::min(shown, w.size()); ++k)
-    out << fmt::format("  {:>4}{:>14.6g}{:>14.6g}  {}\n", k, w[k] / two_pi, w[k],
-                       softest(train, report.modes, k));
+    modes.push_back(whole_row(train_mode_fields(), {w[k], softest(train, report.modes, k)}));
+  print_rows(out, "mode", shown_named_rows("mode", fields_of(train_mode_fields()), modes, 0));
   if (w.size() > shown) out << fmt::format("       and {} more (-o DIR writes all)\n", w.size() - shown);
-
-  out << fmt::format("\n  {:<24}{:>12}{:>14}{:>20}{:>14}\n", "element", "mean N m", "largest N m",
-                     "on reference N m", "shear MPa");
-  for (const auto& t : report.torques)
-    out << fmt::format("  {:<24}{:>12.4g}{:>14.4g}{:>20.4g}{:>14}\n", t.element, t.mean_Nm + 0.0,
-                       t.largest_Nm, t.largest_reduced_Nm,
-                       t.largest_shear_Pa > 0 ? fmt::format("{:.4g}", t.largest_shear_Pa / 1e6) : "-");
+  print_rows(out, "element",
+             shown_named_rows("element", fields_of(train_element_fields()), train_elements_json(report)));
   if (report.forced.rigid_acceleration_rad_s2 != 0)
     out << fmt::format("  unbalanced mean torque: the reference shaft gains {:.4g} rad/s2\n",
                        report.forced.rigid_acceleration_rad_s2);
 
-  print_margins(out, report.margins, all);
+  print_margins(out, report.margins, margins_json(report), all);
 
   out << fmt::format("\n  crossings from {:.6g} to {:.6g} rpm of the reference shaft\n",
                      report.campbell.speed_rad_s[0] / rpm,
@@ -131,38 +108,13 @@ void print_torsion(std::ostream& out, const Scene& scene, const TorsionReport& r
   for (const auto& warning : report.forced.warnings) out << "  warning: " << warning << '\n';
 }
 
-Json train_elements_json(const TorsionReport& report) {
-  Json json = Json::object();
-  for (const auto& t : report.torques)
-    json[t.element] = {{"mean_torque_Nm", t.mean_Nm},
-                       {"largest_torque_Nm", t.largest_Nm},
-                       {"largest_reduced_torque_Nm", t.largest_reduced_Nm},
-                       {"largest_shear_stress_Pa", t.largest_shear_Pa}};
-  return json;
-}
-
-Json margins_json(const TorsionReport& report) {
-  Json json = Json::array();
-  for (const auto& m : report.margins)
-    json.push_back(
-        {{"excitation", line_name(m.line)},
-         {"frequency_rad_s", m.line.frequency_rad_s},
-         {"mode", m.mode},
-         {"natural_frequency_rad_s", m.natural_frequency_rad_s},
-         {"margin", m.margin},
-         {"damping_ratio", m.damping_ratio},
-         {"torque_share", m.torque_share},
-         {"amplification", std::isfinite(m.amplification) ? Json(m.amplification) : Json(nullptr)}});
-  return json;
-}
-
 std::string torsion_json(const Scene& scene, const TorsionReport& report) {
   Json json;
   json["scene"] = scene.file.filename().string();
   if (!scene.settings.empty()) json["settings"] = scene.settings;
   Json& torsion = json["torsion"];
   for (const double w : report.modes.frequency_rad_s)
-    torsion["natural_frequencies"].push_back({{"value", w}, {"unit", "rad/s"}});
+    torsion["natural_frequencies"].push_back(summary_row(train_mode_fields(), {w, ""}));
   torsion["elements"] = train_elements_json(report);
   if (!report.margins.empty()) torsion["margins"] = margins_json(report);
   if (report.transient) {
@@ -250,27 +202,7 @@ void write_torsion_files(const std::filesystem::path& directory, const Scene& sc
 
   if (report.published) write_published(directory, *report.published);
 
-  std::vector<std::string> excitation;
-  std::vector<std::int64_t> mode;
-  std::vector<double> line, natural, margin, amplification, damping, share;
-  for (const auto& m : report.margins) {
-    excitation.push_back(line_name(m.line));
-    mode.push_back(m.mode);
-    line.push_back(m.line.frequency_rad_s);
-    natural.push_back(m.natural_frequency_rad_s);
-    margin.push_back(m.margin);
-    amplification.push_back(m.amplification);
-    damping.push_back(m.damping_ratio);
-    share.push_back(m.torque_share);
-  }
-  write_csv(directory / "margins.csv", {{"excitation", "", excitation},
-                                        {"frequency", "rad/s", line},
-                                        {"mode", "", mode},
-                                        {"natural_frequency", "rad/s", natural},
-                                        {"margin", "1", margin},
-                                        {"amplification", "1", amplification},
-                                        {"damping_ratio", "1", damping},
-                                        {"torque_share", "1", share}});
+  write_csv(directory / "margins.csv", csv_columns(fields_of(margin_fields()), margins_json(report)));
 }
 
 }  // namespace pipelines

@@ -21,7 +21,7 @@ void print_fatigue(std::ostream& out, const RunReport& report, const Judged& ana
 std::vector<RankedPlace> fatigue_ranking(const RunReport& report);
 
 /// Rows of a ranking that are shown: the first ones, and the first of each body.
-/// @param bodies  of each row
+/// @param bodies  body of each row
 std::vector<std::size_t> rows_shown(const std::vector<std::string>& bodies, std::size_t most);
 
 void print_shortest_lives(std::ostream& out, const RunReport& report);
@@ -32,14 +32,14 @@ summary::Json fatigue_ranking_json(const RunReport& report);
 /// What bodies.<body>.fatigue has.
 summary::Json fatigue_json(const RunReport& report, const Judged& analysis);
 
-/// All places, by falling utilisation.
+/// Writes all places, by falling utilisation.
 void write_fatigue(const std::filesystem::path& file, const BodyResult& body);
 
-/// Weld toes, by rising life.
+/// Writes weld toes, by rising life.
 void write_weld_fatigue(const std::filesystem::path& file, const BodyResult& body);
 
-/// Of places by rising life: the names of those whose life may be below the first one's by the error of their
-/// stress.
+/// Names of the places whose life may be below the first one's by the error of their stress. The places stand
+/// by rising life.
 template <typename Place, typename Name>
 std::vector<std::string> may_last_less(const std::vector<Place>& places, const Name& name) {
   std::vector<std::string> names;

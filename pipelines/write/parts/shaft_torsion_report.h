@@ -37,8 +37,8 @@ ShownRows shown_element_stresses(const summary::Json& elements);
 /// What bodies.<body>.torsion.elements has; null for other bodies.
 summary::Json element_torsion_json(const RunReport& report, const Judged& analysis);
 
-/// Over the instants, of each element: torque, the same by the stress field, nominal torsional stress, and
-/// that at the ring stressed most. Writes nothing for other bodies.
+/// Writes for each element, over the instants: torque, the same by the stress field, nominal torsional
+/// stress, and that at the ring stressed most. Writes nothing for other bodies.
 void write_element_torsion(const std::filesystem::path& file, const kinetics::LoadHistory& loads,
                            const Judged& analysis);
 
@@ -51,7 +51,7 @@ ShownRows shown_start_up(const summary::Json& start_up);
 /// What bodies.<body>.start_up has.
 summary::Json start_up_json(const Judged& analysis);
 
-/// Over the start: angle and speed of the drive, torque of each element, torsional stress at the ring
+/// Writes over the start: angle and speed of the drive, torque of each element, torsional stress at the ring
 /// stressed most.
 /// @param analysis  with a start
 void write_start_up(const std::filesystem::path& file, const Judged& analysis);

@@ -82,7 +82,7 @@ public:
     }
     return circle;
   }
-  /// Of all instants.
+  /// Window that holds all instants.
   ChartWindow window() const {
     const double margin_mm = 0.03 * box_.diagonal().norm();
     return {{box_.min().x() - margin_mm, box_.max().x() + margin_mm},

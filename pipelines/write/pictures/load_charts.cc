@@ -21,7 +21,7 @@ Eigen::ArrayXd force_of(const kinetics::Resultant& resultant) {
   return resultant.total.topRows<2>().matrix().colwise().norm().transpose().array();
 }
 
-/// With a force, the largest first.
+/// Resultants with a force, the largest first.
 std::vector<const kinetics::Resultant*> largest_resultants(const kinetics::LoadHistory& loads) {
   std::vector<const kinetics::Resultant*> all;
   for (const auto& resultant : loads.resultants)

@@ -10,17 +10,17 @@
 
 namespace pipelines {
 
-/// Of the largest six resultants: histories (size over the drive's angle), polar (the force's path in its
-/// frame), harmonics (amplitude of the force's components by order), and of the largest one rainflow (cycles
-/// of its size by mean and range).
-/// @param turns  of a steady period; 0: a run-up, which has no harmonics
+/// Draws for the largest six resultants: histories (size over the drive's angle), polar (the force's path in
+/// its frame), harmonics (amplitude of the force's components by order), and for the largest one rainflow
+/// (cycles of its size by mean and range).
+/// @param turns  turns of a steady period; 0: a run-up, which has no harmonics
 /// @return the files that were written, PNG and SVG; empty if the machine offers no EGL
 /// @throws FileError naming a file that cannot be written
 std::vector<std::string> write_load_charts(const std::filesystem::path& directory, const std::string& title,
                                            const kinetics::LoadHistory& loads, int turns);
 
-/// campbell (natural frequencies and excitations over the reference shaft's speed) and modes (reduced angles
-/// of the inertias).
+/// Draws campbell (natural frequencies and excitations over the reference shaft's speed) and modes (reduced
+/// angles of the inertias).
 /// @return, @throws  as write_load_charts
 std::vector<std::string> write_torsion_charts(const std::filesystem::path& directory, const Scene& scene,
                                               const TorsionReport& report);

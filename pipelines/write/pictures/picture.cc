@@ -96,7 +96,7 @@ vtkSmartPointer<vtkActor> plain_actor(vtkPolyData* data, double grey) {
 }
 
 /// Stripes across x + y + z, which show on the faces of most bodies.
-/// @param width  of a light and a dark one together
+/// @param width  width of a light and a dark one together
 vtkSmartPointer<vtkActor> hatched_actor(vtkPolyData* data, double width) {
   vtkNew<vtkFloatArray> along;
   double least = std::numeric_limits<double>::max(), most = std::numeric_limits<double>::lowest();
@@ -218,7 +218,7 @@ void add_drawn(vtkRenderer* renderer, const Drawn& drawn, const SurfaceParts& pa
   if (with_edges) add_lines(renderer, drawn.edges.get(), 0.25, 1);
 }
 
-/// Where the parts of a picture are, in shares of it: left, bottom, right, top.
+/// Places of the parts of a picture, in shares of it: left, bottom, right, top.
 struct Layout {
   using Place = std::array<double, 4>;
   Place whole, detail, legend;
@@ -232,8 +232,8 @@ double width_over_height(const Layout::Place& place, const PictureOptions& optio
   return (place[2] - place[0]) * options.width / ((place[3] - place[1]) * options.height);
 }
 
-constexpr double line_height = 0.06;       // of text in the legend
-constexpr double single_precision = 1e-6;  // m, of places on bodies of a few metres: what VTK's filters leave
+constexpr double line_height = 0.06;       // height of text in the legend
+constexpr double single_precision = 1e-6;  // m: what VTK's filters leave of places on bodies of a few metres
 
 double distance(const Vector& a, const Vector& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
@@ -248,7 +248,7 @@ int pieces_of(vtkIdType n_faces, int wanted) {
   return pieces;
 }
 
-/// Where a renderer whose camera is set shows a place, in its pixels.
+/// Pixel where a renderer whose camera is set shows a place.
 Pixel pixel_of(vtkRenderer* renderer, const Vector& at) {
   vtkNew<vtkCoordinate> place;
   place->SetCoordinateSystemToWorld();

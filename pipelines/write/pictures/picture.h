@@ -18,8 +18,8 @@ struct PictureMark {
 struct PictureOptions {
   int width = 1600, height = 1000;  ///< pixels
   double scale = 1;                 ///< from the field's unit to the one shown: 1e-6 for Pa to MPa
-  std::optional<std::array<double, 2>>
-      range;             ///< of the colours, in the unit shown; else from 0 (or below) to the peak
+  /// Range of the colours, in the unit shown; else from 0 (or below) to the peak.
+  std::optional<std::array<double, 2>> range;
   std::string excluded;  ///< field that is not 0 where the picture's has no converged value: hatched there
   std::string beyond;    ///< field of the distance from there, negative within; empty: half way between nodes
   std::string excluded_is;          ///< what is hatched, for the legend, in lines
@@ -36,7 +36,7 @@ struct PictureOptions {
 /// that is. A body whose peak is inside is cut open; what stands between the eye and the neighbourhood of the
 /// peak is cut away.
 /// @param field  one component
-/// @param title  of the picture
+/// @param title  title of the picture
 /// @param unit   as shown beside the colours ("MPa")
 /// @param png    written whole or not at all
 /// @return false if this machine cannot draw (no EGL): nothing is written

@@ -32,10 +32,10 @@ struct PortBody {
   std::vector<std::string> ports;
   PortShape whole;
   PortShape half;                     ///< the part left by the cut; empty without one
-  std::shared_ptr<vtkPolyData> face;  ///< of the cut; empty without one
+  std::shared_ptr<vtkPolyData> face;  ///< face of the cut; empty without one
 };
 
-/// @param vtu  of write_port_surface
+/// @param vtu  file of write_port_surface
 /// @throws FileError naming the file if it cannot be read or has no ports
 PortBody read_port_body(const std::filesystem::path& vtu, const std::optional<CutPlane>& cut);
 

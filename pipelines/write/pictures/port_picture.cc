@@ -27,7 +27,7 @@ constexpr double swatch = 16, space = 8;
 /// labels.
 struct Panel {
   PortView view;
-  Frame frame;                                      ///< of the part above the strip
+  Frame frame;                                      ///< frame of the part above the strip
   int left = 0, bottom = 0, width = 0, height = 0;  ///< without the strip below
   double m_per_pixel = 0;
   std::vector<SeenPort> seen;
@@ -93,7 +93,7 @@ void add_scale(vtkRenderer* renderer, const Panel& panel) {
   add_words(renderer, panel.view.caption, font, right + 40, 21);
 }
 
-/// Each port in the first view that shows it nearly as well as any.
+/// Shows each port in the first view that shows it nearly as well as any.
 std::vector<std::vector<std::size_t>> share_out(const std::vector<Panel>& panels, std::size_t n_ports) {
   std::vector<std::vector<std::size_t>> ports(panels.size());
   for (std::size_t p = 0; p < n_ports; ++p) {

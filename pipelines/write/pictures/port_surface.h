@@ -17,7 +17,7 @@ inline constexpr const char* feature_names = "feature name";  ///< list
 }  // namespace port_fields
 
 /// The boundary faces as a VTU file: per face `port`, `feature` and `boundary_id`; the names as field data.
-/// @param nodes  of the body that was made of this mesh
+/// @param nodes  nodes of the body that was made of this mesh
 /// @throws FileError naming the file if it cannot be written
 void write_port_surface(const std::filesystem::path& vtu, const fem::Nodes& nodes,
                         const meshes::BodyMesh& mesh);

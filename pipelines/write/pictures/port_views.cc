@@ -23,7 +23,7 @@ namespace {
 
 constexpr double degree = pi / 180;
 
-/// From `near` turned towards `right`, then raised.
+/// The view from `near` turned towards `right`, then raised.
 View turned(const Vector& near, const Vector& right, double turn, double raise) {
   Vector up, eye;
   vtkMath::Cross(near.data(), right.data(), up.data());

@@ -16,7 +16,7 @@ namespace pipelines {
 struct PortView {
   std::string caption;
   View view;
-  bool cut = false;  ///< of the half body
+  bool cut = false;  ///< the half body is shown
 };
 
 /// All views that are worth a try. Long bodies lie with z to the right; others stand with y upwards.

@@ -13,11 +13,12 @@ struct PortPixels {
 
 struct SeenPort {
   std::size_t n_pixels = 0;
-  double x = 0, y = 0;  ///< a pixel well inside what is seen of the port, near its middle and, of
-                        ///< several pieces, near the upper or lower edge of the picture; y upwards
+  /// A pixel well inside what is seen of the port, near its middle and, of several pieces, near the upper or
+  /// lower edge of the picture; y upwards.
+  double x = 0, y = 0;
 };
 
-/// One entry per port.
+/// What is seen of each port, one entry per port.
 std::vector<SeenPort> seen_ports(const PortPixels& pixels, std::size_t n_ports);
 
 }  // namespace pipelines

@@ -15,7 +15,7 @@ std::string rough_percent(double share) {
   return fmt::format("{:.2g} %", 100 * share);
 }
 
-/// Of the body's governing stress; an estimate is said to be one.
+/// Bound as a share of the body's governing stress; an estimate is said to be one.
 std::string bound_text(const EffectBound& bound, const Judged& analysis) {
   const double stress_Pa = governing_stress(analysis).value_Pa;
   if (!(stress_Pa > 0)) return "-";
@@ -28,7 +28,7 @@ const EffectBound* find(const DroppedBounds& bounds, const std::string& effect) 
   return nullptr;
 }
 
-/// Of effects that went in one step each has the share of all of them: that is said.
+/// Effects that are left out in one step each have the share of all of them: that is said.
 void print_groups(std::ostream& out, const EffectChoice& choice) {
   std::vector<std::string> told;
   for (const auto& dropped : choice.dropped) {

@@ -14,14 +14,10 @@ using summary::Json;
 
 constexpr std::size_t n_rows_of_fatigue = 12;
 
-void add_rows(HtmlPage& page, const ShownRows& rows) {
-  if (!rows.cells.empty()) page.table(rows.titles, rows.cells);
-}
-
 /// The first table of a list in summary.json; nothing without it.
 template <typename Row>
 void add_list(HtmlPage& page, const FieldTable<Row>& fields, const Json& of, const char* key) {
-  if (of.contains(key)) add_rows(page, shown_rows(fields_of(fields), of.at(key), n_rows_of_fatigue));
+  if (of.contains(key)) page.table(shown_rows(fields_of(fields), of.at(key), n_rows_of_fatigue));
 }
 
 }  // namespace
@@ -33,7 +29,7 @@ void add_fatigue(HtmlPage& page, const Json& body) {
   add_list(page, fatigue_fields(), fatigue, "places");
   add_list(page, weld_fields(), fatigue, "welds");
   page.folded("Other rules and assumptions of fatigue", [&] {
-    add_rows(page, shown_details(fields_of(fatigue_fields()), fatigue.at("places"), n_rows_of_fatigue));
+    page.table(shown_details(fields_of(fatigue_fields()), fatigue.at("places"), n_rows_of_fatigue));
     add_list(page, din_743_fields(), fatigue, "din_743");
     for (const auto& line : fatigue.at("assumptions")) page.paragraph(line.get<std::string>());
   });
@@ -48,20 +44,20 @@ void add_fatigue_ranking(HtmlPage& page, const Json& summary) {
   for (const auto i : rows_shown(bodies, n_rows_of_fatigue)) rows.push_back(ranking.at(i));
   page.heading(2, std::string("Fatigue of all bodies") +
                       (summary.contains("duty") ? ", over all operating blocks" : ""));
-  add_rows(page, shown_rows(fields_of(ranking_fields()), rows, rows.size()));
+  page.table(shown_rows(fields_of(ranking_fields()), rows, rows.size()));
 }
 
 void add_duty(HtmlPage& page, const Json& summary) {
   if (!summary.contains("duty")) return;
   const Json& duty = summary.at("duty");
   page.heading(2, "Operating blocks");
-  add_rows(page, shown_blocks(duty.at("blocks")));
+  page.table(shown_blocks(duty.at("blocks")));
   if (duty.contains("places"))
     for (const auto& [body, places] : duty.at("places").items()) {
       page.heading(3, body + ": life over all blocks");
-      add_rows(page, shown_duty_places(places, n_rows_of_fatigue));
+      page.table(shown_duty_places(places, n_rows_of_fatigue));
     }
-  if (duty.contains("bearings")) add_rows(page, shown_duty_bearings(duty.at("bearings")));
+  if (duty.contains("bearings")) page.table(shown_duty_bearings(duty.at("bearings")));
 }
 
 }  // namespace pipelines

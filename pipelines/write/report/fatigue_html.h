@@ -11,7 +11,7 @@ namespace pipelines {
 /// @param body  summary.json's bodies.<body>
 void add_fatigue(HtmlPage& page, const nlohmann::ordered_json& body);
 
-/// Of all bodies, where there are several.
+/// Ranking of all bodies, where there are several.
 /// @param summary  all of summary.json
 void add_fatigue_ranking(HtmlPage& page, const nlohmann::ordered_json& summary);
 

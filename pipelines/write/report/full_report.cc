@@ -7,6 +7,7 @@
 
 #include "pipelines/judge/analysis/error_text.h"
 #include "pipelines/judge/analysis/governing_stress.h"
+#include "pipelines/write/fields/run_fields.h"
 #include "pipelines/write/fields/zone_fields.h"
 #include "pipelines/write/parts/duty_report.h"
 #include "pipelines/write/parts/fatigue_assumptions.h"
@@ -41,14 +42,9 @@ void print_hot_spots(std::ostream& out, const BodyResult& body) {
 
 void print_search(std::ostream& out, const Search& search) {
   if (search.steps.empty()) return;
-  out << fmt::format("\n  {:<24}{:>9}{:>10}{:>11}{:>9}  {}\n", search.quantity, "MPa", "error", "unknowns",
-                     "seconds", "dominated by, mesh");
-  int n = 0;
-  for (const auto& step : search.steps)
-    out << fmt::format("    step {:<17}{:>9}{:>9.1f}%{:>11}{:>9.1f}  {}; {}\n", ++n,
-                       stress_in_MPa(step.value_Pa, step.errors.reducible_Pa()),
-                       step.value_Pa > 0 ? 100 * step.errors.reducible_Pa() / step.value_Pa : 0.0,
-                       step.n_dofs, step.seconds, step.errors.largest_reducible(), step.fineness);
+  const auto steps = whole_rows(search_step_fields(), search.steps);
+  print_rows(out, search.quantity + ", step",
+             shown_named_rows("step", fields_of(search_step_fields()), steps));
   out << fmt::format("  {}: {}", search.met ? "ended" : "NOT MET", search.ended);
   if (search.tolerance > 0) out << fmt::format("; {:.3g} % was asked", 100 * search.tolerance);
   if (search.time_was_up()) out << fmt::format("; the next step needs about {:.0f} s", search.next_seconds);
@@ -56,13 +52,11 @@ void print_search(std::ostream& out, const Search& search) {
 }
 
 void print_vibration(std::ostream& out, const Vibration& vibration) {
-  out << "\n  natural frequencies [Hz]";
-  for (const auto& natural : vibration.natural_frequencies) out << fmt::format("  {:.5g}", natural.value_Hz);
-  out << "\n  lower by at most    [Hz]";
-  for (const auto& natural : vibration.natural_frequencies) out << fmt::format("  {:.2g}", natural.error_Hz);
+  const auto rows = whole_rows(natural_frequency_fields(), vibration.natural_frequencies);
+  print_rows(out, "mode", shown_named_rows("mode", fields_of(natural_frequency_fields()), rows));
   const auto& dynamic = vibration.amplification;
   out << fmt::format(
-      "   ({})\n  dynamic amplification    {:.4f} of the peak{}; harmonic {:.4g} at {:.4g} Hz: "
+      "  {}\n  dynamic amplification    {:.4f} of the peak{}; harmonic {:.4g} at {:.4g} Hz: "
       "{:.3g} % of it, times {:.4f}\n",
       vibration.held, 1 + vibration.to_peak.share,
       vibration.to_peak.place.empty() ? "" : ", at " + vibration.to_peak.place, dynamic.highest.order,
@@ -82,7 +76,7 @@ void print_governing(std::ostream& out, const RunReport& report, const Judged& a
                      moment_text(report, stress.instant));
 }
 
-/// Beside the governing one.
+/// Prints the headlines beside the governing stress.
 void print_headlines(std::ostream& out, const BodyResult& body) {
   auto rows = headline_rows(summary_row(headline_fields(), body));
   rows.cells.erase(rows.cells.begin());
@@ -158,13 +152,10 @@ void print_full_report(std::ostream& out, const RunReport& report) {
   print_resampling(out, report);
   print_bearings(out, report);
   if (report.duty != nullptr) print_duty(out, *report.duty);
+  print_list(out, stage_fields(), report.costs);
   double total = 0;
-  out << fmt::format("\n  {:<28}{:>12}\n", "stage", "seconds");
-  for (const auto& cost : report.costs) {
-    out << fmt::format("  {:<28}{:>12.2f}\n", cost.stage, cost.seconds);
-    total += cost.seconds;
-  }
-  out << fmt::format("  {:<28}{:>12.2f}   peak memory {:.1f} GB\n", "total", total, peak_memory_gigabytes());
+  for (const auto& cost : report.costs) total += cost.seconds;
+  out << fmt::format("  total {:.2f} s, peak memory {:.1f} GB\n", total, peak_memory_gigabytes());
   for (const auto& warning : report.scene.warnings) out << "  warning: " << warning << '\n';
   for (const auto& warning : report.loads.warnings) out << "  warning: " << warning << '\n';
 }

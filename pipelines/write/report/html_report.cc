@@ -10,18 +10,19 @@
 
 #include "pipelines/base/common/constants.h"
 #include "pipelines/base/common/errors.h"
-#include "pipelines/base/common/statistics.h"
-#include "pipelines/base/fields/shown_unit.h"
 #include "pipelines/base/files/atomic_file.h"
 #include "pipelines/base/files/json_file.h"
 #include "pipelines/base/files/whole_file.h"
+#include "pipelines/judge/verdict/verdict_text.h"
+#include "pipelines/loads/channels/load_figures.h"
 #include "pipelines/write/exports/html_page.h"
 #include "pipelines/write/fields/bearing_fields.h"
+#include "pipelines/write/fields/run_fields.h"
+#include "pipelines/write/fields/train_fields.h"
 #include "pipelines/write/fields/zone_fields.h"
 #include "pipelines/write/parts/shaft_torsion_report.h"
 #include "pipelines/write/report/fatigue_html.h"
 #include "pipelines/write/report/html_values.h"
-#include "pipelines/write/report/torsion_html.h"
 
 namespace pipelines {
 namespace {
@@ -46,7 +47,7 @@ void add_budget(HtmlPage& page, const std::string& of, const Json& error, double
   rows.push_back({"all together", MPa(error.at("total")),
                   number(error.at("total"), value_Pa > 0 ? 100 / value_Pa : 0, "{:.2f} %"), "sum"});
   page.heading(3, "How well the " + of + " is known");
-  page.table({"source of error", "MPa", "share", "how it was estimated"}, rows);
+  page.table({{"source of error", "MPa", "share", "how it was estimated"}, rows});
 }
 
 void add_effects(HtmlPage& page, const Json& peak) {
@@ -55,55 +56,62 @@ void add_effects(HtmlPage& page, const Json& peak) {
   for (const auto& [effect, share] : peak.at("effect_share").items())
     rows.push_back({effect, number(share, 100, "{:.2f} %")});
   page.heading(3, "What the peak is made of");
-  page.table({"effect", "share"}, rows);
+  page.table({{"effect", "share"}, rows});
   if (!peak.contains("effect_group_share")) return;
   Rows sums;
   for (const auto& [group, share] : peak.at("effect_group_share").items())
     sums.push_back({group, number(share, 100, "{:.2f} %")});
-  page.table({"in sum", "share"}, sums);
-}
-
-void add_table(HtmlPage& page, const ShownRows& shown) {
-  page.table(shown.titles, shown.cells);
+  page.table({{"in sum", "share"}, sums});
 }
 
 void add_zones(HtmlPage& page, const Json& body) {
   const auto& zones = body.at("zones");
   const auto fields = fields_of(zone_fields());
   page.heading(3, "Zones above " + MPa(body.at("zone_level").at("value")) + " MPa");
-  add_table(page, shown_rows(fields, zones, zones.size()));
-  add_table(page, shown_details(fields, zones, zones.size()));
+  page.table(shown_rows(fields, zones, zones.size()));
+  page.table(shown_details(fields, zones, zones.size()));
   auto parts = Json::array();
   for (const auto& zone : zones)
     for (const auto& part : zone.value("parts", Json::array())) parts.push_back(part);
-  add_table(page, shown_rows(fields_of(zone_part_fields()), parts, parts.size()));
+  page.table(shown_rows(fields_of(zone_part_fields()), parts, parts.size()));
   if (!body.contains("hot_spots")) return;
   constexpr std::size_t most = 12;
   page.heading(3, "Hot-spot stress at weld toes");
-  add_table(page, shown_rows(fields_of(hot_spot_fields()), body.at("hot_spots"), most));
+  page.table(shown_rows(fields_of(hot_spot_fields()), body.at("hot_spots"), most));
 }
 
 void add_search(HtmlPage& page, const Json& body) {
   if (!body.contains("search")) return;
   const auto& search = body.at("search");
-  Rows rows;
-  for (const auto& step : search.at("steps"))
-    rows.push_back({fmt::format("{}", rows.size() + 1), number(step.at("dofs"), 1, "{:.0f}"),
-                    MPa(step.at("value_Pa")), MPa(step.at("error").at("total")),
-                    with_spaces(step.at("dominated_by").get<std::string>()),
-                    step.at("mesh").get<std::string>()});
   page.heading(3, search.at("tolerance") == 0
                       ? "The way within the time limit"
                       : "The way to the tolerance of " + number(search.at("tolerance"), 100, "{:g} %"));
-  page.table({"step", "unknowns", "MPa", "error MPa", "dominated by", "mesh"}, rows);
+  page.table(shown_named_rows("step", fields_of(search_step_fields()), search.at("steps")));
   page.paragraph("It ended because " + search.at("ended").get<std::string>() + ".");
 }
 
 void add_seats(HtmlPage& page, const Json& body) {
   if (!body.contains("seats")) return;
-  const auto shown = shown_seats(body.at("seats"));
   page.heading(3, "Deflection and slope");
-  page.table(shown.titles, shown.cells);
+  page.table(shown_seats(body.at("seats")));
+}
+
+void add_shaft_torsion(HtmlPage& page, const Json& body) {
+  if (body.contains("torsion") && body.at("torsion").contains("elements")) {
+    const auto& elements = body.at("torsion").at("elements");
+    page.heading(3, "Torsion");
+    page.table(shown_element_torques(elements));
+    page.table(shown_element_stresses(elements));
+  }
+  if (!body.contains("start_up")) return;
+  page.heading(3, "Start-up");
+  page.table(shown_start_up(body.at("start_up")));
+}
+
+void add_vibration(HtmlPage& page, const Json& body) {
+  if (!body.contains("natural_frequencies")) return;
+  page.heading(3, "Natural frequencies");
+  page.table(shown_named_rows("mode", fields_of(natural_frequency_fields()), body.at("natural_frequencies")));
 }
 
 /// The model, and of a solid how it was solved.
@@ -122,19 +130,18 @@ void add_verdict(HtmlPage& page, const Json& summary) {
   if (!summary.contains("verdict")) return;
   const auto& verdict = summary.at("verdict");
   page.verdict(verdict.at("judgement").get<std::string>(), verdict.at("headline").get<std::string>());
-  Rows rows;
-  for (const auto& [name, part] : verdict.at("parts").items())
-    for (const auto& finding : part.at("findings")) {
-      const auto text = [&](const char* key) { return finding.at(key).get<std::string>(); };
-      const auto place = text("place").empty() ? "" : ", at " + text("place");
-      const auto remedy = text("remedy").empty() ? "" : "; to do: " + text("remedy");
-      rows.push_back({name, text("judgement"), text("criterion"), text("figure") + place + remedy});
-    }
   std::string left_out;
   for (const auto& what : verdict.value("left_out", Json::array()))
     left_out += (left_out.empty() ? "" : ", ") + what.get<std::string>();
   if (!left_out.empty()) page.paragraph("Not weighed, by the scene: " + left_out + ".");
-  page.table({"", "verdict", "criterion", "figure and limit, at the weakest place"}, rows);
+  ShownRows rows;
+  for (const auto& [name, part] : verdict.at("parts").items()) {
+    auto own = shown_rows(fields_of(finding_fields()), part.at("findings"), part.at("findings").size());
+    rows.titles = std::move(own.titles);
+    for (auto& cells : own.cells) cells.insert(cells.begin(), name), rows.cells.push_back(std::move(cells));
+  }
+  rows.titles.insert(rows.titles.begin(), "of");
+  page.table(rows);
 }
 
 void add_body(HtmlPage& page, const std::filesystem::path& directory, const std::string& name,
@@ -149,7 +156,7 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
                              number(body.at("dofs"), 1, "{:.0f}"), number(body.at("mass").at("value")),
                              body.at("material").get<std::string>(),
                              MPa(body.at("yield_strength").at("value")), solved_by(body)));
-  add_table(page, headline_rows(body));
+  page.table(headline_rows(body));
   page.picture(directory / name / "envelope.png", "Largest von Mises stress over the cycle, " + name);
   add_zones(page, body);
   const auto& governing = body.at("governing");
@@ -160,48 +167,37 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
   });
   page.folded("How the mesh was found", [&] { add_search(page, body); });
   page.folded("Shares of all effects", [&] { add_effects(page, peak); });
+  add_vibration(page, body);
   add_shaft_torsion(page, body);
   add_seats(page, body);
   add_fatigue(page, body);
 }
 
-/// What rounding leaves of a mean that is none is 0.
-std::string mean_of(const Json& load, double one) {
-  const auto size = [&](const char* key) {
-    return load.at(key).is_number() ? std::abs(load.at(key).get<double>()) : 0.0;
-  };
-  if (!load.at("mean").is_number()) return "-";
-  return number(without_rounding(load.at("mean").get<double>(), std::max(size("max"), size("min"))), 1 / one);
-}
-
 void add_loads(HtmlPage& page, const Json& summary) {
   if (!summary.contains("loads")) return;  // all are zero
-  Rows rows;
-  for (const auto& [name, load] : summary.at("loads").items()) {
-    const auto shown = shown_unit(load.at("unit").get<std::string>());
-    rows.push_back({name, number(load.at("max"), 1 / shown.one), number(load.at("min"), 1 / shown.one),
-                    mean_of(load, shown.one), number(load.at("rms"), 1 / shown.one), shown.unit});
-  }
   page.heading(2, "Loads over the cycle");
-  page.table({"load", "max", "min", "mean", "rms", "unit"}, rows);
+  page.table(shown_named_rows("load", fields_of(load_fields()), summary.at("loads")));
 }
 
 void add_bearings(HtmlPage& page, const Json& summary) {
   if (!summary.contains("bearings")) return;
-  const auto& bearings = summary.at("bearings");
   page.heading(2, "Bearings");
-  for (const auto& shown : {shown_bearings(bearings), shown_bearing_answers(bearings)})
-    page.table(shown.titles, shown.cells);
+  page.table(shown_bearings(summary.at("bearings")));
+  page.table(shown_bearing_answers(summary.at("bearings")));
 }
 
-void add_natural_frequencies(HtmlPage& page, const Json& summary) {
+/// Of a drive train; nothing of other machines.
+void add_train(HtmlPage& page, const Json& summary) {
   if (!summary.contains("torsion")) return;
-  Rows rows;
-  for (const auto& frequency : summary.at("torsion").at("natural_frequencies"))
-    rows.push_back({fmt::format("{}", rows.size() + 1), number(frequency.at("value")),
-                    number(frequency.at("value"), 60 / (2 * pi))});
+  const auto& torsion = summary.at("torsion");
   page.heading(2, "Torsional natural frequencies");
-  page.table({"mode", "rad/s", "per minute"}, rows);
+  page.table(shown_named_rows("mode", fields_of(train_mode_fields()), torsion.at("natural_frequencies"), 0));
+  if (!torsion.contains("margins") || torsion.at("margins").empty()) return;
+  const auto rows = shown_margins(torsion.at("margins"));
+  page.heading(2, "Resonance margins");
+  page.table(rows);
+  if (const auto text = margins_left_out(torsion.at("margins").size(), rows.cells.size()); !text.empty())
+    page.paragraph("Not shown: " + text.substr(4) + " (torsion/margins.csv).");
 }
 
 void add_accuracy(HtmlPage& page, const std::filesystem::path& directory) {
@@ -220,12 +216,8 @@ void add_accuracy(HtmlPage& page, const std::filesystem::path& directory) {
 }
 
 void add_timing(HtmlPage& page, const Json& summary) {
-  Rows rows;
-  for (const auto& [stage, cost] : summary.at("timing").items())
-    rows.push_back({stage, number(cost.at("seconds"), 1, "{:.2f}"),
-                    number(cost.at("peak_memory_gigabytes"), 1, "{:.2f}")});
   page.heading(2, "Time and memory");
-  page.table({"stage", "seconds", "largest memory so far, GB"}, rows);
+  page.table(shown_named_rows("stage", fields_of(stage_fields()), summary.at("timing")));
 }
 
 std::string window_of(const Json& input) {
@@ -260,8 +252,7 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory,
   add_bearings(page, summary);
   add_fatigue_ranking(page, summary);
   add_duty(page, summary);
-  add_natural_frequencies(page, summary);
-  add_resonance_margins(page, summary);
+  add_train(page, summary);
   add_accuracy(page, accuracy);
   if (summary.contains("timing")) page.folded("Time and memory", [&] { add_timing(page, summary); });
   return page.text();

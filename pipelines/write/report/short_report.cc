@@ -194,7 +194,7 @@ void print_lives(std::ostream& out, const Judged& analysis) {
                        with_error(rows[i].range_Pa, rows[i].error_share * rows[i].range_Pa), rows[i].life);
 }
 
-/// Which size the strength is for, before any life that follows from it.
+/// Prints which size the strength is for, before any life that follows from it.
 void print_strength(std::ostream& out, const RunReport& report, const Judged& analysis) {
   if (analysis.fatigue) out << "    " << strength_text(report.scene, analysis) << '\n';
 }

@@ -15,7 +15,8 @@
 #include "pipelines/scene/machines/load_table_reader.h"
 #include "pipelines/scene/whole/machine_kind.h"
 #include "pipelines/write/fields/bearing_fields.h"
-#include "pipelines/write/machines/torsion_json.h"
+#include "pipelines/write/fields/run_fields.h"
+#include "pipelines/write/fields/train_fields.h"
 #include "pipelines/write/parts/duty_report.h"
 #include "pipelines/write/parts/fatigue_report.h"
 #include "pipelines/write/report/summary_parts.h"
@@ -103,14 +104,10 @@ std::string summary_json(const RunReport& report) {
   for (const auto* warnings : {&report.loads.warnings, &report.scene.warnings})
     for (const auto& warning : *warnings) json["warnings"].push_back(warning);
   const Machine& machine = report.scene.machine;
-  for (const auto& of : load_figures(report.scene, report.loads))
-    json["loads"][of.name] = object({{"max", number(of.statistics.max)},
-                                     {"min", number(of.statistics.min)},
-                                     {"mean", number(of.statistics.mean)},
-                                     {"rms", number(of.statistics.rms)},
-                                     {"unit", of.unit}});
+  if (const auto figures = load_figures(report.scene, report.loads); !figures.empty())
+    json["loads"] = loads_json(figures);
   for (const double w : kind_of(machine).natural_frequencies_rad_s(machine))
-    json["torsion"]["natural_frequencies"].push_back(figure(w, "rad/s"));
+    json["torsion"]["natural_frequencies"].push_back(summary_row(train_mode_fields(), {w, ""}));
   if (report.torsion != nullptr) {
     json["torsion"]["elements"] = train_elements_json(*report.torsion);
     json["torsion"]["margins"] = margins_json(*report.torsion);
@@ -131,9 +128,7 @@ std::string summary_json(const RunReport& report) {
   if (!report.bearings.empty()) json["bearings"] = bearings_json(report.bearings);
   if (const auto ranking = fatigue_ranking_json(report); !ranking.empty()) json["fatigue_ranking"] = ranking;
   if (report.duty != nullptr) json["duty"] = duty_json(*report.duty);
-  for (const auto& cost : report.costs)
-    json["timing"][cost.stage] =
-        object({{"seconds", cost.seconds}, {"peak_memory_gigabytes", cost.peak_gigabytes}});
+  for (const auto& cost : report.costs) json["timing"][cost.stage] = summary_row(stage_fields(), cost);
   return json.dump(2) + "\n";
 }
 

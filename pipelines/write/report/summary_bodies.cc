@@ -5,6 +5,7 @@
 #include "pipelines/judge/analysis/exclusion_border.h"
 #include "pipelines/judge/estimates/energy_errors.h"
 #include "pipelines/judge/stages/body_vibration.h"
+#include "pipelines/write/fields/run_fields.h"
 #include "pipelines/write/fields/zone_fields.h"
 #include "pipelines/write/parts/fatigue_assumptions.h"
 #include "pipelines/write/parts/fatigue_report.h"
@@ -15,24 +16,16 @@ namespace pipelines::summary {
 
 namespace {
 
-/// Seconds are no part of it: they change from run to run.
 Json search_json(const Search& search) {
   Json json = object({{"quantity", search.quantity},
                       {"tolerance", number(search.tolerance)},
                       {"met", search.met},
                       {"ended", search.ended}});
-  for (const auto& step : search.steps)
-    json["steps"].push_back(object({{"mesh", step.fineness},
-                                    {"instants_per_turn", step.instants_per_turn},
-                                    {"pressure_harmonics", step.pressure_harmonics},
-                                    {"dofs", step.n_dofs},
-                                    {"value_Pa", number(step.value_Pa)},
-                                    {"error", budget_json(step.errors)},
-                                    {"dominated_by", step.errors.largest_reducible()}}));
+  json["steps"] = summary_rows(search_step_fields(), search.steps);
   return json;
 }
 
-/// Beside max_shear_stress, which is a headline.
+/// Torsion beside max_shear_stress, which is a headline.
 Json torsion_json(const Judged& analysis) {
   const auto& diagrams = *analysis.diagrams;
   const auto largest_in_section =
@@ -50,11 +43,7 @@ Json torsion_json(const Judged& analysis) {
 /// How the quasi-static stress is meant: dynamic_amplification is the factor that resonance is expected to
 /// put on the peak.
 void add_vibration(const Vibration& vibration, Json& json) {
-  json["natural_frequencies"] = Json::array();
-  for (const auto& natural : vibration.natural_frequencies) {
-    json["natural_frequencies"].push_back(figure(natural.value_Hz, "Hz"));
-    json["natural_frequencies"].back()["error"] = number(natural.error_Hz);
-  }
+  json["natural_frequencies"] = summary_rows(natural_frequency_fields(), vibration.natural_frequencies);
   const auto& dynamic = vibration.amplification;
   json["dynamic_amplification"] = figure(1 + vibration.to_peak.share, "1");
   if (!vibration.to_peak.place.empty()) json["dynamic_amplification"]["place"] = vibration.to_peak.place;

@@ -2,13 +2,9 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cmath>
 #include <ostream>
 
 #include "pipelines/base/common/constants.h"
-#include "pipelines/base/common/statistics.h"
-#include "pipelines/base/fields/shown_unit.h"
 #include "pipelines/judge/texts/moment.h"
 #include "pipelines/judge/verdict/verdict_text.h"
 #include "pipelines/loads/channels/load_figures.h"
@@ -18,15 +14,6 @@
 
 namespace pipelines {
 namespace {
-
-void print_load(std::ostream& out, const LoadFigure& figure) {
-  const auto& s = figure.statistics;
-  const auto shown = shown_unit(figure.unit);
-  const double scale = std::max(std::abs(s.max), std::abs(s.min));
-  out << fmt::format("  {:<28}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.5g}\n", figure.name + " [" + shown.unit + "]",
-                     s.max / shown.one, s.min / shown.one, without_rounding(s.mean, scale) / shown.one,
-                     s.rms / shown.one);
-}
 
 std::string window_of(const RunReport& report) {
   const auto& grid = report.scene.sampling;
@@ -50,14 +37,14 @@ void print_title_and_verdict(std::ostream& out, const RunReport& report) {
   for (const auto& samples : samples_read(report.scene.machine, report.scene.sampling))
     out << "  read " << samples.text() << '\n';
   print_verdict(out, verdict);
-  out << '\n';
 }
 
 void print_loads(std::ostream& out, const RunReport& report) {
-  out << fmt::format("  {:<28}{:>12}{:>12}{:>12}{:>12}\n", "load", "max", "min", "mean", "rms");
   const MachineKind& kind = kind_of(report.scene.machine);
-  for (const auto& figure : load_figures(report.scene, report.loads))
-    if (kind.is_headline(figure.name)) print_load(out, figure);  // the rest is in summary.json
+  std::vector<LoadFigure> headlines;  // the rest is in summary.json
+  for (auto& figure : load_figures(report.scene, report.loads))
+    if (kind.is_headline(figure.name)) headlines.push_back(std::move(figure));
+  print_rows(out, "load", shown_named_rows("load", fields_of(load_fields()), loads_json(headlines)));
 }
 
 void print_resampling(std::ostream& out, const RunReport& report) {

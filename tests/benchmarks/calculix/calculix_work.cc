@@ -15,12 +15,12 @@
 #include "fem/operators/stiffness.h"
 #include "fem/solvers/direct_solve.h"
 #include "fem/triangulation/body_grid.h"
-#include "pipelines/command/calculix/calculix_comparison.h"
 #include "pipelines/command/calculix/calculix_model.h"
 #include "pipelines/loads/stage/body_mesh.h"
 #include "pipelines/respond/responses/response_files.h"
 #include "tests/benchmarks/calculix/bare_cholmod.h"
 #include "tests/benchmarks/solvers/benchmark_shaft.h"
+#include "tests/verification/calculix/calculix_comparison.h"
 
 namespace measure {
 namespace {

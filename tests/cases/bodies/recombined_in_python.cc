@@ -1,5 +1,5 @@
-// The five lines of Python in pipelines/README.md, word by word: what they recombine from the files of a run
-// is what `millstress history` writes.
+// The five lines of Python in pipelines/command/commands/README.md, word by word: what they recombine from
+// the files of a run is what `millstress history` writes.
 #include <cmath>
 
 #include "tests/cases/program/small_shaft.h"
@@ -10,7 +10,7 @@ namespace {
 
 /// The indented block below a heading that begins with these words.
 std::vector<std::string> block_below(const std::string& heading, const std::string& first_words) {
-  std::ifstream page(fs::path(SOURCE_DIR) / "pipelines/README.md");
+  std::ifstream page(fs::path(SOURCE_DIR) / "pipelines/command/commands/README.md");
   std::vector<std::string> lines;
   bool inside = false;
   for (std::string line; std::getline(page, line);) {
@@ -75,7 +75,7 @@ void expect_same_in_hdf5(const fs::path& directory, const std::string& node,
 /// Runs the five lines on a small shaft by this model, and compares with what `history` writes.
 void expect_recombined(const std::string& method) {
   SCOPED_TRACE(method);
-  auto lines = block_below("#### In five lines of Python", "import h5py");
+  auto lines = block_below("### In five lines of Python", "import h5py");
   ASSERT_EQ(lines.size(), 5u);
   const results_test::Directory directory;
   write(directory / "vibratory_mill.toml",

@@ -3,8 +3,8 @@
 
 #include <fstream>
 
-#include "pipelines/command/calculix/calculix_results.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
+#include "tests/verification/calculix/calculix_results.h"
 
 namespace {
 

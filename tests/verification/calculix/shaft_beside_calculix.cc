@@ -6,11 +6,11 @@
 #include <cstdlib>
 
 #include "fem/model/model.h"
-#include "pipelines/command/calculix/calculix_comparison.h"
 #include "pipelines/command/calculix/calculix_model.h"
 #include "pipelines/loads/stage/body_mesh.h"
 #include "tests/benchmarks/solvers/benchmark_shaft.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
+#include "tests/verification/calculix/calculix_comparison.h"
 
 namespace {
 

@@ -14,12 +14,12 @@
 #include "fem/loads/nodal_loads.h"
 #include "fem/stress/surface_stress.h"
 #include "pipelines/command/calculix/calculix_model.h"
-#include "pipelines/command/calculix/calculix_results.h"
 #include "pipelines/judge/analysis/exclusion_border.h"
 #include "pipelines/judge/analysis/governing_stress.h"
 #include "pipelines/judge/stages/place_errors.h"
 #include "pipelines/search/loop/scene_run.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
+#include "tests/verification/calculix/calculix_results.h"
 #include "tests/verification/sharp_edges/sharp_parts.h"
 
 namespace {

@@ -129,19 +129,6 @@ TEST(RainflowEnds, AreThoseOfTheCycles) {
 
 }  // namespace
 
-TEST(LoadSpectrum, TurningPoints) {
-  const auto found = [](std::initializer_list<double> values) {
-    const ArrayXd points = kinetics::turning_points(series(values));
-    return std::vector<double>(points.begin(), points.end());
-  };
-  using V = std::vector<double>;
-  EXPECT_EQ(found({0, 1, 2, 2, 2, 1, 1, 3}), (V{0, 2, 1, 3}));
-  EXPECT_EQ(found({0, 1, 1, 2}), (V{0, 2})) << "a landing on the way up is no turning point";
-  EXPECT_EQ(found({5, 5, 5}), (V{5}));
-  EXPECT_EQ(found({5}), (V{5}));
-  EXPECT_EQ(found({1, 2}), (V{1, 2}));
-}
-
 TEST(LoadSpectrum, AgreesWithAnotherAlgorithm) {
   std::mt19937 generator(7);
   for (const int band : {2, 5, 1000})
@@ -202,7 +189,7 @@ TEST(LoadSpectrum, MergesEqualCyclesByFallingRange) {
 
 TEST(LoadSpectrum, WrongInputIsRefused) {
   const double not_a_number = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(kinetics::turning_points(ArrayXd()), std::invalid_argument);
+  EXPECT_THROW(kinetics::rainflow(ArrayXd()), std::invalid_argument);
   EXPECT_THROW(kinetics::rainflow_repeating(ArrayXd()), std::invalid_argument);
   for (const double bad : {not_a_number, std::numeric_limits<double>::infinity()}) {
     EXPECT_THROW(kinetics::rainflow(series({1, 2, bad})), std::invalid_argument);

@@ -88,11 +88,7 @@ TEST(FkmLimit, SafetyFactors) {
 }
 
 TEST(FkmLimit, GroupsHaveNames) {
-  for (const auto& row : material_groups()) {
-    EXPECT_EQ(material_group(row.name), row.group);
-    EXPECT_EQ(&constants_of(row.group), &row);
-  }
-  EXPECT_THROW(material_group("wood"), std::invalid_argument);
+  for (const auto& row : material_groups()) EXPECT_EQ(&constants_of(row.group), &row) << row.name;
   EXPECT_THROW(require_sound({MaterialGroup::steel, 800, 600, {}}), std::invalid_argument);  // MPa for Pa
 }
 

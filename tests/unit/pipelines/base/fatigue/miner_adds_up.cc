@@ -14,7 +14,7 @@ namespace {
 using namespace pipelines;
 
 TEST(Miner, CurveBothWays) {
-  const SnCurve endures{100, 1e6, 5, {}}, falls{100, 1e6, 5, haibach_slope(5)};
+  const SnCurve endures{100, 1e6, 5, {}}, falls{100, 1e6, 5, 9};
   EXPECT_NEAR(*cycles_to_failure(endures, 200), 1e6 / 32, 1e-8);
   EXPECT_FALSE(cycles_to_failure(endures, 100).has_value());
   EXPECT_NEAR(*cycles_to_failure(falls, 50), 1e6 * 512, 1e-4);

@@ -18,24 +18,21 @@ struct Sample {
 FieldTable<Sample> sample_fields() {
   using Field = FieldOf<Sample>;
   return {
-      Field("name", quantities::text, "its name", [](const Sample&) { return "a, b"; }).labelled("sample"),
-      Field("stress", quantities::stress, "of a sample", [](const Sample& s) { return s.stress_Pa; })
-          .labelled("stress"),
+      {"name", quantities::text, "its name", "sample", [](const Sample&) { return "a, b"; }},
+      {"stress", quantities::stress, "of a sample", "stress", &Sample::stress_Pa},
       Field("force", as_figure(quantities::force), "in its unit",
             [](const Sample&) { return summary::figure(12.5, "N"); })
           .detail("force"),
-      Field("is_welded", quantities::flag, "or not", [](const Sample&) { return true; }),
-      Field("position", quantities::position, "of it",
-            [](const Sample&) {
-              return Json::array({0.001, -0.0000001, 0.3});
-            })
-          .labelled("at"),
-      Field("from", quantities::moment, "an instant",
+      {"is_welded", quantities::flag, "or not", [](const Sample&) { return true; }},
+      {"position", quantities::position, "of it", "at",
+       [](const Sample&) {
+         return Json::array({0.001, -0.0000001, 0.3});
+       }},
+      Field("from", quantities::moment, "an instant", "from",
             [](const Sample&) {
               return summary::object({{"turn", 3}, {"drive_angle_rad", 1.5707963267948966}});
             })
-          .in_column("drive_angle_from")
-          .labelled("from"),
+          .in_column("drive_angle_from"),
       Field("life_range", quantities::range_of_hours, "of a life",
             [](const Sample&) {
               return Json::array({10, nullptr});
@@ -46,14 +43,13 @@ FieldTable<Sample> sample_fields() {
               return s.stress_Pa > 0 ? Json({{"belt", 0.25}}) : Json::object();
             })
           .in_column("share_"),
-      Field("safety_by.goodman", quantities::ratio, "of one rule",
+      Field("safety_by.goodman", quantities::ratio, "of one rule", "Goodman",
             [](const Sample&) { return Json(nullptr); })
-          .in_column("safety_goodman")
-          .labelled("Goodman"),
-      Field("causes", quantities::structure, "more",
-            [](const Sample&) {
-              return Json({{"a", 1}});
-            }),
+          .in_column("safety_goodman"),
+      {"causes", quantities::structure, "more",
+       [](const Sample&) {
+         return Json({{"a", 1}});
+       }},
       Field("kind", quantities::text, "in CSV alone", [](const Sample&) { return "surface"; })
           .without_summary(),
       Field("days", quantities::count, "in the summary alone", [](const Sample&) { return 2; }).without_csv(),
@@ -118,9 +114,8 @@ TEST(FieldOutputs, OneMoreRowIsInAllOfThem) {
   for (const auto& table : fields_test::all_tables()) {
     SCOPED_TRACE(table.title);
     auto fields = table.fields;
-    const FieldOf<Sample> extra = FieldOf<Sample>("wear", quantities::length, "of a test", [](const Sample&) {
-                                    return 0.0425;
-                                  }).labelled("wear");
+    const FieldOf<Sample> extra = FieldOf<Sample>("wear", quantities::length, "of a test", "wear",
+                                                  [](const Sample&) { return 0.0425; });
     fields.push_back(extra);
     auto row = Json::object();
     set_value(row, extra, extra.value({}));

@@ -4,11 +4,19 @@
 #include <fstream>
 #include <iterator>
 
+#include "pipelines/judge/verdict/verdict_text.h"
+#include "pipelines/loads/channels/load_figures.h"
+#include "pipelines/study/accuracy/accuracy_report.h"
+#include "pipelines/study/effects/body_effect_report.h"
+#include "pipelines/study/effects/effect_prices.h"
 #include "pipelines/write/fields/bearing_fields.h"
 #include "pipelines/write/fields/duty_fields.h"
 #include "pipelines/write/fields/fatigue_fields.h"
+#include "pipelines/write/fields/run_fields.h"
 #include "pipelines/write/fields/shaft_fields.h"
+#include "pipelines/write/fields/train_fields.h"
 #include "pipelines/write/fields/zone_fields.h"
+#include "pipelines/write/machines/free_body_report.h"
 #include "tests/unit/pipelines/base/fields/tables_of_results.h"
 
 using namespace pipelines;
@@ -39,6 +47,20 @@ std::vector<Table> all_tables() {
       {"`duty.blocks.<block>.bodies.<body>`", fields_of(block_stress_fields())},
       {"`duty.csv`, `duty.places.<body>`", fields_of(duty_place_fields())},
       {"`duty.bearings.<bearing>`", fields_of(duty_bearing_fields())},
+      {"`statistics.csv`, `loads.<name>`", fields_of(load_fields())},
+      {"`torsion.natural_frequencies`", fields_of(train_mode_fields())},
+      {"`torsion.elements.<element>`", fields_of(train_element_fields())},
+      {"`margins.csv`, `torsion.margins`", fields_of(margin_fields())},
+      {body + "natural_frequencies`", fields_of(natural_frequency_fields())},
+      {body + "search.steps`", fields_of(search_step_fields())},
+      {"`timing.<stage>`", fields_of(stage_fields())},
+      {"`verdict.parts.<part>.findings`", fields_of(finding_fields())},
+      {"`effects.<effect>.loads.<load>` of `effects --json`", fields_of(load_share_fields())},
+      {"effects on a body, of `check`", fields_of(effect_size_fields())},
+      {"effects, of `accuracy`", fields_of(effect_price_fields())},
+      {"`accuracy/<body>.csv`, series of `accuracy/accuracy.h5`", fields_of(accuracy_fields())},
+      {"`accuracy/<body>_gci.csv`", fields_of(grid_fields())},
+      {"`free_body.csv`", fields_of(free_body_fields())},
   };
 }
 

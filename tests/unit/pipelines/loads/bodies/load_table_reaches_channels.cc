@@ -53,9 +53,16 @@ pipelines::TableBodyOptions supports() {
   return options;
 }
 
+pipelines::BodyLoads distributed(const LoadTable& table, const std::vector<std::string>& effects,
+                                 const pipelines::LoadedBody& body,
+                                 const pipelines::TableBodyOptions& options) {
+  return distribute_table_at(compute_loads(table, effects, grid).phi_rad, table, effects, grid, body,
+                             options);
+}
+
 pipelines::BodyLoads loads(const LoadTable& table, const pipelines::TableBodyOptions& options = supports(),
                            const std::vector<std::string>& effects = {"a", "b", "c"}) {
-  return distribute_table(table, effects, grid, part(), options);
+  return distributed(table, effects, part(), options);
 }
 
 ArrayXd values(double mean, double amplitude = 0) {
@@ -123,7 +130,7 @@ TEST(LoadTable, BearingsSideBySideAreRefusedWithARemedy) {
   auto body = part();
   body.ports[3] = bodies::port("right", Kind::seat, 4, {-0.01, 0.01}, 0.015, {0.1, 0});
   try {
-    (void)distribute_table(every_component(), {"a"}, grid, body, supports());
+    (void)distributed(every_component(), {"a"}, body, supports());
     ADD_FAILURE() << "not refused";
   } catch (const pipelines::StageRefused& refused) {
     const std::string text = refused.what();
@@ -140,7 +147,7 @@ TEST(LoadTable, AnEccentricAxialSupportIsClosed) {
   auto options = supports();
   options.axial_support = "disc";
   for (const auto& effects : {std::vector<std::string>{"a", "b", "c"}, {"a"}}) {
-    const auto result = distribute_table(every_component(), effects, grid, body, options);
+    const auto result = distributed(every_component(), effects, body, options);
     const auto closure = bodies::closure_of(result, body.regions);
     EXPECT_LT(closure.worst_force(), bodies::round_off);
     EXPECT_LT(closure.worst_moment(), bodies::round_off);
@@ -184,7 +191,7 @@ TEST(LoadTable, LoadsWhereTheyAreCarriedLeaveNothing) {
   auto body = part();
   body.regions.front().masses.first_moment_kg_m = {0, 0, 0.3};
   body.regions.front().masses.second_moments_kg_m2 = {2e-3, 3e-3, 0.05, 0, 0, 0};
-  const auto result = distribute_table(with_spin, {"a", "b", "c"}, grid, body, supports());
+  const auto result = distributed(with_spin, {"a", "b", "c"}, body, supports());
   ASSERT_EQ(result.history.channels.size(), 1u);
   EXPECT_EQ(result.history.channels.front().name, "volume.spin");
 }

@@ -135,7 +135,7 @@ TEST(EffectPrices, ShareOutSecondsByTheChannelsOfTheirOwn) {
   print_accuracy(with, study);
   const auto text = with.str();
   EXPECT_NE(text.find("effects on the shaft"), std::string::npos) << text;
-  const auto line = text.substr(text.find("    pull"));
+  const auto line = text.substr(text.find("  pull"));
   EXPECT_NE(line.substr(0, line.find('\n')).find("12.5"), std::string::npos) << text;  // 10 + 2 + 0.5 s
   EXPECT_EQ(text.find("in sum"), std::string::npos) << "no two effects belong together";
   study.effects[0].effect = "charge_relative";  // -75 %

@@ -23,7 +23,7 @@ TEST(HtmlPage, TextIsNoMarkup) {
   HtmlPage page("a < b & \"c\"");
   page.heading(1, "<script>");
   page.paragraph("x > 'y'");
-  page.table({"<b>"}, {{"<i>"}});
+  page.table({{"<b>"}, {{"<i>"}}});
   const auto text = page.text();
   EXPECT_NE(text.find("<title>a &lt; b &amp; &quot;c&quot;</title>"), std::string::npos);
   EXPECT_NE(text.find("<h1>&lt;script&gt;</h1>"), std::string::npos);

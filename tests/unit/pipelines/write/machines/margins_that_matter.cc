@@ -6,7 +6,7 @@
 
 #include "pipelines/judge/verdict/torsion_report.h"
 #include "pipelines/scene/whole/scene.h"
-#include "pipelines/write/machines/torsion_json.h"
+#include "pipelines/write/fields/train_fields.h"
 
 using namespace pipelines;
 

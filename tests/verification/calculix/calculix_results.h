@@ -14,7 +14,7 @@ struct CalculixResults {
   std::vector<double> stress_Pa;       ///< n_steps x n x 6: xx, yy, zz, xy, yz, xz, means over elements
 };
 
-/// @param n_nodes  of our mesh; CalculiX numbers them from 1
+/// @param n_nodes  number of nodes of our mesh; CalculiX numbers them from 1
 /// @throws FileError naming file and line for a file that is missing, broken off, of another format,
 /// has other nodes, or lacks displacements or stresses of a step
 CalculixResults read_calculix_results(const std::filesystem::path& frd, std::size_t n_nodes);

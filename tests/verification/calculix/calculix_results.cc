@@ -1,4 +1,4 @@
-#include "pipelines/command/calculix/calculix_results.h"
+#include "tests/verification/calculix/calculix_results.h"
 
 #include <cstdlib>
 #include <fstream>

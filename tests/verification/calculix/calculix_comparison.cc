@@ -1,4 +1,4 @@
-#include "pipelines/command/calculix/calculix_comparison.h"
+#include "tests/verification/calculix/calculix_comparison.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fem/loads/nodal_loads.h"
-#include "pipelines/command/calculix/calculix_results.h"
+#include "tests/verification/calculix/calculix_results.h"
 
 namespace pipelines {
 
@@ -28,7 +28,7 @@ struct CalculixAgreement {
   NodalStress ours, calculix;
 };
 
-/// @param boundary_ids  of the surfaces whose largest stress is compared
+/// @param boundary_ids  boundary ids of the surfaces whose largest stress is compared
 /// @throws std::invalid_argument if loads, responses and results have not the same loads and nodes, or no
 /// node lies on the surfaces
 std::vector<CalculixAgreement> compare_with_calculix(const fem::UnitResponses& ours,
