@@ -57,7 +57,7 @@ struct SceneRun {
 /// solve (effect_bounds.h) exceed the limit all the same, one comes back and the bodies are run again.
 /// Leaves mesh.msh and unit_responses.h5, or unit_harmonics.h5, in the bodies' folders. Needs an
 /// fem::Environment.
-/// @throws as load_bodies and analyse_body, before any earlier
+/// @throws as load_bodies and respond, before any earlier
 /// result is touched where the scene is wrong
 SceneRun run_scene(const Scene& scene, const SceneRunOptions& options, StageClock& clock);
 
