@@ -86,7 +86,7 @@ std::vector<double> shares_of(const Eigen::VectorXd& derivative);
 /// where nothing changes.
 /// @param loads         the loads that `search` has
 /// @param with_channels false: the shares of channels stay empty
-StressShares shares_in_damage(const Judged& analysis, const ChannelHistory& loads,
+StressShares shares_in_damage(const Responded& analysis, const ChannelHistory& loads,
                               const FatiguePlaces& search, const FatigueRules& rules, const FatigueNode& node,
                               const CountedNode& counted, bool with_channels);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kinetics/free_body.h"
+#include "pipelines/base/fields/field.h"
 #include "pipelines/scene/whole/scene.h"
 
 namespace pipelines {

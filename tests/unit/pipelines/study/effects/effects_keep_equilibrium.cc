@@ -20,8 +20,8 @@ namespace {
 using Names = std::vector<std::string>;
 
 /// A scene whose one body is a plain shaft.
-struct Loaded {
-  explicit Loaded(Scene given) : scene(std::move(given)), meshed{plain::meshed(scene.bodies.front())} {
+struct MeshedScene {
+  explicit MeshedScene(Scene given) : scene(std::move(given)), meshed{plain::meshed(scene.bodies.front())} {
     scene.sampling = {1, 24};
     masses = agree_masses(scene, meshed);
   }
@@ -90,9 +90,10 @@ TEST(EffectEquilibrium, VaryingTorquesNeedTheShaftsInertia) {
 TEST(EffectEquilibrium, ConstantTorquesThatDoNotBalanceAreRefused) {
   auto balanced = constant_torques + without_inertia + without_start();
   balanced[1].second = "constant = \"-8 N m\"";
-  EXPECT_EQ(Loaded(edited::scene("root_peeler_shaft", balanced)).refusal(), "accepted");
+  EXPECT_EQ(MeshedScene(edited::scene("root_peeler_shaft", balanced)).refusal(), "accepted");
 
-  const Loaded open(edited::scene("root_peeler_shaft", constant_torques + without_inertia + without_start()));
+  const MeshedScene open(
+      edited::scene("root_peeler_shaft", constant_torques + without_inertia + without_start()));
   const auto text = open.refusal();
   EXPECT_NE(text.find("scene.toml:6:11: effects = [\"motor_torque\", \"peeling_torque\", \"belt_pull\""),
             std::string::npos)
@@ -115,8 +116,8 @@ TEST(EffectEquilibrium, ConstantTorquesThatDoNotBalanceAreRefused) {
 
 // What no table knows is found by the body's equilibrium: without the inertia both torques have to go.
 TEST(EffectEquilibrium, ClosedSetsAreFoundByTheLoads) {
-  const Loaded all(edited::scene("root_peeler_shaft", constant_torques + without_start()));
-  const auto closed = [](const Loaded& given, const Names& off) {
+  const MeshedScene all(edited::scene("root_peeler_shaft", constant_torques + without_start()));
+  const auto closed = [](const MeshedScene& given, const Names& off) {
     const auto set = closed_set(given.scene, given.meshed, given.masses, off);
     return set ? set->off : Names{"none"};
   };
@@ -128,23 +129,23 @@ TEST(EffectEquilibrium, ClosedSetsAreFoundByTheLoads) {
        "[[machine.excitations]]\nname = \"idle\"\ninertia = \"disc\"\nconstant = \"0 N m\"\n\n"
        "[[machine.excitations]]\nname = \"motor_torque\""},
       {"  \"motor_torque\", ", "  \"idle\", \"motor_torque\", "}};
-  const Loaded more(edited::scene("root_peeler_shaft", constant_torques + idle + without_start()));
+  const MeshedScene more(edited::scene("root_peeler_shaft", constant_torques + idle + without_start()));
   EXPECT_EQ(closed(more, {"shaft_inertia"}), (Names{"motor_torque", "peeling_torque", "shaft_inertia"}));
   // A start accelerates the shaft whatever these torques do, and it goes with none of them.
-  const Loaded starting(edited::scene("root_peeler_shaft", constant_torques + idle));
+  const MeshedScene starting(edited::scene("root_peeler_shaft", constant_torques + idle));
   EXPECT_EQ(closed(starting, {"shaft_inertia"}), Names{"none"});
 }
 
 // The mistake that was seen: the inertia's share of the loads is 1e-5, and it was dropped.
 TEST(EffectEquilibrium, TheChoiceKeepsWhatBalances) {
-  Loaded auto_scene(
+  MeshedScene auto_scene(
       edited::scene("root_peeler_shaft", {{"effects = [\n  \"motor_torque\", \"peeling_torque\",\n"
                                            "  \"shaft_inertia\",                  # the shaft's own "
                                            "mass takes part in the vibration\n"
                                            "  \"belt_pull\", \"disc_imbalance\", \"disc_weight\",\n]",
                                            "effects = \"auto\""}}));
   for (const double limit : {0.005, 0.1, 0.9}) {
-    Loaded chosen = auto_scene;
+    MeshedScene chosen = auto_scene;
     chosen.scene = with_effects_chosen(chosen.scene, chosen.meshed, limit);
     EXPECT_EQ(chosen.refusal(), "accepted") << limit;
     EXPECT_TRUE(chosen.scene.has_effect("shaft_inertia")) << limit;
@@ -153,7 +154,7 @@ TEST(EffectEquilibrium, TheChoiceKeepsWhatBalances) {
 
 // A table's torque that no port takes: the support is named, and the effects that need it.
 TEST(EffectEquilibrium, MissingSupportsAreNamed) {
-  const Loaded table(edited::scene("load_table", {{"torque_support = \"disc_seat\"\n", ""}}));
+  const MeshedScene table(edited::scene("load_table", {{"torque_support = \"disc_seat\"\n", ""}}));
   EXPECT_TRUE(
       ends_with(table.refusal(),
                 "the shaft is not in equilibrium: the loads of \"belt\" leave torques about z that nothing "
