@@ -31,6 +31,7 @@
 namespace {
 
 using namespace pipelines;
+using loaded_shaft::by_solid;
 using loaded_shaft::LoadedShaft;
 using loaded_shaft::overhung;
 using loaded_shaft::scene_of;
