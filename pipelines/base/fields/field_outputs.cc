@@ -272,6 +272,7 @@ void print_rows(std::ostream& out, const std::string& title, const ShownRows& ro
     std::size_t most = width(titles[c]);
     bool has_numbers = c > 0;
     for (const auto& cells : rows.cells) {
+      if (cells.size() != titles.size() && c + 1 >= cells.size()) continue;  // a remark
       most = std::max(most, width(cells[c]));
       has_numbers = has_numbers && begins_as_number(cells[c]);
     }
@@ -281,8 +282,8 @@ void print_rows(std::ostream& out, const std::string& title, const ShownRows& ro
   const auto print_line = [&](const std::vector<std::string>& cells) {
     for (std::size_t c = 0; c < cells.size(); ++c) {
       out << "  ";
-      const bool is_last = c + 1 == cells.size() && !to_the_right[c];
-      print_cell(out, cells[c], is_last ? width(cells[c]) : widths[c], to_the_right[c]);
+      const bool is_last = c + 1 == cells.size() && (cells.size() != titles.size() || !to_the_right[c]);
+      print_cell(out, cells[c], is_last ? width(cells[c]) : widths[c], !is_last && to_the_right[c]);
     }
     out << '\n';
   };

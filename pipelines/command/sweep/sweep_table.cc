@@ -140,12 +140,13 @@ void print_points(std::ostream& out, const SweepPlan& plan, const std::vector<Sw
     table.titles.push_back(with_unit(figure, shown_unit(unit_of(rows, figure)).unit));
     if (has_error.back()) table.titles.emplace_back("+-");
   }
-  std::vector<std::vector<std::string>> notes;
   for (std::size_t p = 0; p < rows.size() && p < most_lines; ++p) {
-    const auto& refused = rows[p].refused;
-    notes.push_back({refused.empty() ? "" : "refused: " + refused.substr(0, refused.find('\n'))});
     auto& cells = table.cells.emplace_back(plan.points[p].values);
     cells.insert(cells.begin(), std::to_string(p + 1));
+    if (const auto& refused = rows[p].refused; !refused.empty()) {
+      cells.push_back("refused: " + refused.substr(0, refused.find('\n')));
+      continue;
+    }
     const auto add = [&](const std::string& figure, const char* format, double one) {
       const double value = rows[p].figure(figure) / one;
       cells.push_back(std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value));
@@ -156,7 +157,7 @@ void print_points(std::ostream& out, const SweepPlan& plan, const std::vector<Sw
       if (has_error[f]) add(figures[f] + ".error", "{:.2g}", one);
     }
   }
-  print_rows(out, "point", table, notes);
+  print_rows(out, "point", table);
   if (rows.size() > most_lines) out << fmt::format("  ... {} more in sweep.csv\n", rows.size() - most_lines);
 }
 

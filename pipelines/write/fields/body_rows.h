@@ -41,31 +41,25 @@ auto of_item(Value Item::*member) {
   };
 }
 
+template <typename Item>
+std::vector<RowOf<Item>> rows_of_items(const BodyResult& body, const std::vector<Item>& items) {
+  std::vector<RowOf<Item>> rows;
+  for (const auto& item : items) rows.push_back({body, item, rows.size()});
+  return rows;
+}
+
 /// Rows as summary.json has them.
 template <typename Item>
 summary::Json summary_rows(const FieldTable<RowOf<Item>>& fields, const BodyResult& body,
                            const std::vector<Item>& items) {
-  auto rows = summary::Json::array();
-  for (const auto& item : items)
-    rows.push_back(summary_row(fields, {body, item, std::size_t(&item - items.data())}));
-  return rows;
-}
-
-/// Rows with all fields, for CSV.
-template <typename Item>
-summary::Json whole_rows(const FieldTable<RowOf<Item>>& fields, const BodyResult& body,
-                         const std::vector<Item>& items) {
-  auto rows = summary::Json::array();
-  for (const auto& item : items)
-    rows.push_back(whole_row(fields, {body, item, std::size_t(&item - items.data())}));
-  return rows;
+  return summary_rows(fields, rows_of_items(body, items));
 }
 
 /// Writes rows as a CSV file.
 template <typename Item>
 void write_rows(const std::filesystem::path& file, const FieldTable<RowOf<Item>>& fields,
                 const BodyResult& body, const std::vector<Item>& items) {
-  write_csv(file, csv_columns(fields_of(fields), whole_rows(fields, body, items)));
+  write_csv(file, csv_columns(fields_of(fields), whole_rows(fields, rows_of_items(body, items))));
 }
 
 }  // namespace pipelines

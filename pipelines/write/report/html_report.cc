@@ -20,14 +20,29 @@
 #include "pipelines/write/fields/run_fields.h"
 #include "pipelines/write/fields/train_fields.h"
 #include "pipelines/write/fields/zone_fields.h"
+#include "pipelines/write/parts/duty_report.h"
+#include "pipelines/write/parts/fatigue_report.h"
 #include "pipelines/write/parts/shaft_torsion_report.h"
-#include "pipelines/write/report/fatigue_html.h"
-#include "pipelines/write/report/html_values.h"
 
 namespace pipelines {
 namespace {
 
-using html::Json, html::MPa, html::number, html::Rows;
+using summary::Json;
+using Rows = std::vector<std::vector<std::string>>;
+
+constexpr std::size_t n_rows_of_fatigue = 12;
+
+/// JSON has no infinities: they are null or text there. "-" for what is no number and no text.
+std::string number(const Json& value, double factor = 1, const char* format = "{:.4g}") {
+  if (!value.is_number()) return value.is_string() ? value.get<std::string>() : "-";
+  const double shown = factor * value.get<double>();
+  return std::isfinite(shown) ? fmt::format(fmt::runtime(format), shown) : "-";
+}
+
+/// A stress given in Pa.
+std::string MPa(const Json& pascals) {
+  return number(pascals, 1e-6, "{:.1f}");
+}
 
 std::string file_text(const std::filesystem::path& file) {
   return whole_file(file).value_or("");
@@ -142,6 +157,50 @@ void add_verdict(HtmlPage& page, const Json& summary) {
   }
   rows.titles.insert(rows.titles.begin(), "of");
   page.table(rows);
+}
+
+/// The first table of a list in summary.json; nothing without it.
+template <typename Row>
+void add_list(HtmlPage& page, const FieldTable<Row>& fields, const Json& of, const char* key) {
+  if (of.contains(key)) page.table(shown_rows(fields_of(fields), of.at(key), n_rows_of_fatigue));
+}
+
+void add_fatigue(HtmlPage& page, const Json& body) {
+  if (!body.contains("fatigue")) return;
+  const Json& fatigue = body.at("fatigue");
+  page.heading(3, "Fatigue");
+  add_list(page, fatigue_fields(), fatigue, "places");
+  add_list(page, weld_fields(), fatigue, "welds");
+  page.folded("Other rules and assumptions of fatigue", [&] {
+    page.table(shown_details(fields_of(fatigue_fields()), fatigue.at("places"), n_rows_of_fatigue));
+    add_list(page, din_743_fields(), fatigue, "din_743");
+    for (const auto& line : fatigue.at("assumptions")) page.paragraph(line.get<std::string>());
+  });
+}
+
+void add_fatigue_ranking(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("fatigue_ranking")) return;
+  const auto& ranking = summary.at("fatigue_ranking");
+  std::vector<std::string> bodies;
+  for (const auto& place : ranking) bodies.push_back(place.at("body").get<std::string>());
+  auto rows = Json::array();
+  for (const auto i : rows_shown(bodies, n_rows_of_fatigue)) rows.push_back(ranking.at(i));
+  page.heading(2, std::string("Fatigue of all bodies") +
+                      (summary.contains("duty") ? ", over all operating blocks" : ""));
+  page.table(shown_rows(fields_of(ranking_fields()), rows, rows.size()));
+}
+
+void add_duty(HtmlPage& page, const Json& summary) {
+  if (!summary.contains("duty")) return;
+  const Json& duty = summary.at("duty");
+  page.heading(2, "Operating blocks");
+  page.table(shown_blocks(duty.at("blocks")));
+  if (duty.contains("places"))
+    for (const auto& [body, places] : duty.at("places").items()) {
+      page.heading(3, body + ": life over all blocks");
+      page.table(shown_duty_places(places, n_rows_of_fatigue));
+    }
+  if (duty.contains("bearings")) page.table(shown_duty_bearings(duty.at("bearings")));
 }
 
 void add_body(HtmlPage& page, const std::filesystem::path& directory, const std::string& name,
