@@ -16,7 +16,7 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr double safety = 2.5;  // fem/README.md: random shafts
+constexpr double safety = 2.5;  // fem/beam/README.md: random shafts
 
 /// The thinnest of the segments that meet at a place.
 std::size_t segment_at(const BeamShaft& shaft, double z_m) {

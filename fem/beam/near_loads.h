@@ -15,7 +15,7 @@ namespace fem {
 ///   - Sections do not stay plane where the shear force V bends within less than a diameter: its largest von
 ///     Mises stress, sqrt(3) rim_shear V / A, in the ratio of d to the lever M / V, at most 1. At a lever of
 ///     five diameters that is 1 % of the bending stress.
-/// What the factor was set on: fem/README.md.
+/// What the factor was set on: fem/beam/README.md.
 /// @param factors  of each load its values at the instants
 /// @param z_m      places on the shaft
 /// @return largest over the instants, for each place

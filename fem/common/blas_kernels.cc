@@ -1,5 +1,7 @@
 #include "fem/common/blas_kernels.h"
 
+#include <unistd.h>
+
 #include <cstdlib>
 
 #include "fem/common/library_function.h"
@@ -28,17 +30,12 @@ std::string blas_kernels() {
   return name != nullptr ? name() : "";
 }
 
-void mend_blas_kernels() {
+void restart_with_wide_blas(char** argv) {
   constexpr auto variable = "OPENBLAS_CORETYPE";
   const char* better = kernels_for_this_processor();
   if (better == nullptr || blas_kernels() != "Prescott" || std::getenv(variable) != nullptr) return;
-  const auto forget = library_function<void()>("gotoblas_dynamic_quit"),
-             choose = library_function<void()>("gotoblas_dynamic_init");
-  if (forget == nullptr || choose == nullptr) return;
   setenv(variable, better, 0);
-  forget();
-  choose();
-  unsetenv(variable);
+  execv("/proc/self/exe", argv);  // comes back only if it fails: slower, and as right
 }
 
 }  // namespace fem

@@ -28,23 +28,11 @@ Eigenpairs symmetric_eigenpairs(const ConstMatrix& a, const ConstMatrix& b) {
   return {pairs.eigenvalues(), pairs.eigenvectors()};
 }
 
-double largest_eigenvalue_of_tridiagonal(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside) {
-  Eigen::SelfAdjointEigenSolver<MatrixXd> solver;
-  solver.computeFromTridiagonal(diagonal, beside, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().maxCoeff();
-}
-
 RowSpace row_space(const ConstMatrix& a, double negligible) {
   const Eigen::JacobiSVD<MatrixXd> svd(a, Eigen::ComputeFullV);
   RowSpace result{svd.matrixV(), 0};
   for (const double value : svd.singularValues()) result.rank += value > negligible * svd.singularValues()[0];
   return result;
-}
-
-MatrixXd orthonormal_basis(const ConstMatrix& a, double negligible) {
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(a);
-  qr.setThreshold(negligible);
-  return qr.householderQ() * MatrixXd::Identity(a.rows(), qr.rank());
 }
 
 MatrixXd orthonormal_by(const ConstMatrix& gram, const ConstMatrix& x) {

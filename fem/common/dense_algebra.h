@@ -26,9 +26,6 @@ Eigenpairs symmetric_eigenpairs(const ConstMatrix& a);
 /// A x = w B x: values ascending, X'BX = I.
 /// @param b  positive definite; lower triangles are read
 Eigenpairs symmetric_eigenpairs(const ConstMatrix& a, const ConstMatrix& b);
-/// @param diagonal  n
-/// @param beside    n - 1
-double largest_eigenvalue_of_tridiagonal(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside);
 
 /// Right singular vectors, by falling singular value: the first `rank` span the rows of the matrix, the
 /// others its null space.
@@ -38,10 +35,6 @@ struct RowSpace {
 };
 /// @param negligible  singular values up to this share of the largest count as zero
 RowSpace row_space(const ConstMatrix& a, double negligible);
-
-/// Orthonormal columns that span those of `a`, as many as its rank: Householder QR with column pivoting.
-/// @param negligible  pivots up to this share of the largest count as zero
-Eigen::MatrixXd orthonormal_basis(const ConstMatrix& a, double negligible);
 
 /// x U^-1 with gram = U'U: columns that are orthonormal in the inner product of their Gram matrix.
 /// @param gram  positive definite

@@ -38,12 +38,8 @@ namespace {
 /// Fills one column; remembers the surfaces it has met.
 class Columns {
 public:
-  Columns(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3,
-          const PerCell<double>& relative_density)
-      : grid_(grid),
-        integrals_(integrals),
-        density_kg_m3_(density_kg_m3),
-        relative_density_(relative_density) {}
+  Columns(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3)
+      : grid_(grid), integrals_(integrals), density_kg_m3_(density_kg_m3) {}
 
   void fill(const SurfaceResultant& load, Eigen::Ref<Eigen::VectorXd> column) {
     const auto& surface = find(load.surface);
@@ -67,14 +63,13 @@ private:
   const NodeIntegrals& integrals_over(const std::vector<int>& volume_ids) {
     if (volume_ids.empty()) return integrals_;
     auto [known, is_new] = regions_.try_emplace(volume_ids);
-    if (is_new) known->second = integrate_nodes(grid_, volume_ids, relative_density_);
+    if (is_new) known->second = integrate_nodes(grid_, volume_ids);
     return known->second;
   }
 
   const Grid& grid_;
   const NodeIntegrals& integrals_;
   double density_kg_m3_;
-  PerCell<double> relative_density_;
   std::vector<std::unique_ptr<LoadedSurface>> surfaces_;
   std::map<std::vector<int>, NodeIntegrals> regions_;
 };
@@ -92,10 +87,10 @@ void check_channels(const std::vector<UnitLoad>& loads) {
 }
 
 Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3,
-                             const std::vector<UnitLoad>& loads, const PerCell<double>& relative_density) {
+                             const std::vector<UnitLoad>& loads) {
   check_channels(loads);
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3 * grid.n_nodes, loads.size());
-  Columns columns(grid, integrals, density_kg_m3, relative_density);
+  Columns columns(grid, integrals, density_kg_m3);
   for (std::size_t k = 0; k < loads.size(); ++k) {
     try {
       std::visit([&](const auto& shape) { columns.fill(shape, force.col(k)); }, loads[k].shape);

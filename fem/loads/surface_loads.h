@@ -70,8 +70,7 @@ void check_channels(const std::vector<UnitLoad>& loads);
 /// @throws std::invalid_argument for an empty list, an empty or repeated channel, a body force on a volume
 /// group without cells, and as LoadedSurface, naming the channel
 Eigen::MatrixXd load_vectors(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3,
-                             const std::vector<UnitLoad>& loads,
-                             const PerCell<double>& relative_density = 1.0);
+                             const std::vector<UnitLoad>& loads);
 
 /// Unit resultants of a surface as columns (3 n_nodes x 6), in the order of SurfaceResultant::Component.
 Eigen::MatrixXd unit_resultants(const Grid& grid, const LoadSurface& surface);

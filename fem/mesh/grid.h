@@ -51,8 +51,7 @@ struct Grid {
   std::vector<std::int32_t> cell_nodes;  ///< n_cells x nodes_per_cell, in the order above
   std::vector<int> volume_id;            ///< n_cells
   std::vector<BoundaryFace> boundary;
-  std::vector<BoundaryFace> interfaces{};  ///< faces inside the body where no stress is smoothed across
-  HangingNodes hanging{};                  ///< of locally refined hexahedra
+  HangingNodes hanging{};  ///< of locally refined hexahedra
 
   std::size_t n_cells() const noexcept { return volume_id.size(); }
   std::size_t n_unknowns() const noexcept { return 3 * (n_nodes - hanging.n()); }

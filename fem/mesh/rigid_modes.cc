@@ -29,8 +29,8 @@ public:
     }
   }
 
-  /// Integrals of N_i, N_i x, N_i y, N_i z over the cell, times a weight (n_shapes x 4).
-  Moments of(std::size_t cell, double weight) const {
+  /// Integrals of N_i, N_i x, N_i y, N_i z over the cell (n_shapes x 4).
+  Moments of(std::size_t cell) const {
     const auto* nodes = grid_.nodes_of(cell);
     Eigen::Matrix<double, Eigen::Dynamic, 3> x(at_.n_shapes, 3);
     for (int i = 0; i < at_.n_shapes; ++i)
@@ -39,7 +39,7 @@ public:
     for (std::size_t axis = 0; axis < 3; ++axis) tangent[axis] = (along_[axis] * x).array();
     const auto& [a, b, c] = tangent;
     Moments moments(at_.n_points, 4);
-    moments.col(0) = weight * Eigen::Map<const Eigen::ArrayXd>(at_.weight.data(), at_.n_points) *
+    moments.col(0) = Eigen::Map<const Eigen::ArrayXd>(at_.weight.data(), at_.n_points) *
                      (a.col(0) * (b.col(1) * c.col(2) - b.col(2) * c.col(1)) +
                       a.col(1) * (b.col(2) * c.col(0) - b.col(0) * c.col(2)) +
                       a.col(2) * (b.col(0) * c.col(1) - b.col(1) * c.col(0)));
@@ -61,20 +61,17 @@ private:
 
 }  // namespace
 
-NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
-                              const PerCell<double>& weight) {
+NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours) {
   const CellMoments moments(grid);
   NodeIntegrals integrals = NodeIntegrals::Zero(grid.n_nodes, 4);
   for (const auto& cells : colours)
     parallel_for(cells.size(), 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c)
-        moments.add(cells[c], moments.of(cells[c], weight[cells[c]]), integrals);
+      for (std::size_t c = begin; c < end; ++c) moments.add(cells[c], moments.of(cells[c]), integrals);
     });
   return integrals;
 }
 
-NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_ids,
-                              const PerCell<double>& weight) {
+NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_ids) {
   for (const int id : volume_ids)
     if (std::find(grid.volume_id.begin(), grid.volume_id.end(), id) == grid.volume_id.end())
       throw std::invalid_argument("the mesh has no cells in the volume group " + std::to_string(id));
@@ -90,8 +87,7 @@ NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_i
   for (std::size_t first = 0; first < cells.size(); first += most_at_once) {
     const auto n = std::min(most_at_once, cells.size() - first);
     parallel_for(n, 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k)
-        of_cells[k] = moments.of(cells[first + k], weight[cells[first + k]]);
+      for (std::size_t k = begin; k < end; ++k) of_cells[k] = moments.of(cells[first + k]);
     });
     for (std::size_t k = 0; k < n; ++k) moments.add(cells[first + k], of_cells[k], integrals);
   }
@@ -221,14 +217,6 @@ void RigidBalance::remove_motion(const std::vector<std::int32_t>& node, const st
       for (Eigen::Index i = 0; i < n; ++i) u.col(i) -= along + about.cross(place_m(node[std::size_t(i)]));
     }
   });
-}
-
-WithoutModes::WithoutModes(const Eigen::MatrixXd& modes) {
-  basis_ = orthonormal_basis(modes, std::numeric_limits<double>::epsilon() * double(modes.cols()));
-}
-
-void WithoutModes::apply(Eigen::MatrixXd& vectors) const {
-  subtract_product(basis_, transposed_product(basis_, vectors), vectors);
 }
 
 }  // namespace fem

@@ -15,17 +15,13 @@ namespace fem {
 /// Integrals over the body of N_i, N_i x, N_i y, N_i z for every node (n x 4). Gauss points in number that
 /// makes them exact on isoparametric cells: mass, first and second moments, body loads and balancing all come
 /// from this table.
-/// @param weight  of the cells: relative density
 using NodeIntegrals = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
-NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours,
-                              const PerCell<double>& weight = 1.0);
+NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<std::vector<std::int32_t>>& colours);
 
 /// The same over the cells of some volume groups only; zero at the other nodes.
 /// @throws std::invalid_argument if one of the groups has no cells
-NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_ids,
-                              const PerCell<double>& weight = 1.0);
+NodeIntegrals integrate_nodes(const Grid& grid, const std::vector<int>& volume_ids);
 
-/// @param density_kg_m3  of the cells with weight 1; volume_m3 is the integrals', weighted as they are
 MassProperties mass_properties(const Grid& grid, const NodeIntegrals& integrals, double density_kg_m3);
 
 /// Displacements of unit translations along and unit rotations about x, y, z through `centre` (3 n x 6).
@@ -60,20 +56,6 @@ private:
   const NodeIntegrals& integrals_;
   Eigen::Vector3d centre_m_;
   Eigen::Matrix<double, 6, 6> inverse_;  // (R'MR)^-1
-};
-
-/// Takes the part along some vectors out of others, by the dot product: what rounding leaves of rigid motion
-/// in forces that should balance would be answered by large displacements.
-class WithoutModes {
-public:
-  WithoutModes() = default;
-  /// @param modes  one per column; of rank 6 for those of a body
-  explicit WithoutModes(const Eigen::MatrixXd& modes);
-  void apply(Eigen::MatrixXd& vectors) const;
-  std::size_t bytes() const { return 8 * std::size_t(basis_.size()); }
-
-private:
-  Eigen::MatrixXd basis_;  // orthonormal
 };
 
 }  // namespace fem

@@ -7,16 +7,16 @@
 #include <string>
 #include <utility>
 
-#include "fem/common/blas_kernels.h"
 #include "fem/common/blas_memory.h"
 #include "fem/common/parallel.h"
 #include "fem/model/model.h"
 
 namespace fem {
 
-/// deal.II begins PETSc and SLEPc too (fem/modes/krylov_schur.cc): they would take options from the command
-/// line, which is this program's, from the environment and from files, and print and trap as these say. Nor
-/// shall PETSc handle signals: it would print and end MPI beside threads that still work.
+/// deal.II begins PETSc and SLEPc too: they would take options from the command line, which is this
+/// program's, from the environment and from files, and print and trap as these say. Of the environment's
+/// options only those of our own solver count (petsc_options_of_user). Nor shall PETSc handle signals: it
+/// would print and end MPI beside threads that still work.
 struct Environment::Impl {
   explicit Impl(unsigned n_threads) : mpi(argc, argv, n_threads) {}
   char name[11] = "millstress", no_files[14] = "-skip_petscrc", no_handler[19] = "-no_signal_handler";
@@ -52,12 +52,14 @@ Environment::Environment(int n_threads) {
   if (n_threads < 0)
     throw std::invalid_argument("threads = " + std::to_string(n_threads) +
                                 ": must be 0 (all cores) or positive");
-  mend_blas_kernels();
   const unsigned n = n_threads == 0 ? dealii::numbers::invalid_unsigned_int : unsigned(n_threads);
   if (!mpi_runs()) {
     begin_alone_quickly();
+    const char* const in_environment = std::getenv("PETSC_OPTIONS");
+    const std::string options = in_environment == nullptr ? "" : in_environment;
     unsetenv("PETSC_OPTIONS");
     impl_ = std::make_unique<Impl>(n);
+    if (in_environment != nullptr) setenv("PETSC_OPTIONS", options.c_str(), 1);
   } else if (n_threads > 0)
     dealii::MultithreadInfo::set_thread_limit(n);
   set_blas_threads(Environment::n_threads());

@@ -18,15 +18,14 @@
 #include "fem/mesh/rigid_modes.h"
 #include "fem/model/responses_on_ranks.h"
 #include "fem/modes/natural_frequencies.h"
-#include "fem/operators/cell_materials.h"
-#include "fem/operators/material_interfaces.h"
 #include "fem/operators/nodes_export.h"
+#include "fem/operators/sharp_edges.h"
 #include "fem/operators/stiffness.h"
 #include "fem/ranks/ranks.h"
 #include "fem/recovery/recovery_on_ranks.h"
 #include "fem/solvers/direct_solve.h"
-#include "fem/solvers/iterative_solve.h"
 #include "fem/solvers/mirrored_halves.h"
+#include "fem/solvers/petsc_solver.h"
 #include "fem/solvers/solver_prediction.h"
 #include "fem/stress/energy_error.h"
 #include "fem/stress/sections.h"
@@ -44,7 +43,7 @@ struct Model::Impl {
   Eigen::MatrixXd dual_solutions(const BalancedLoads& loads, const MirroredHalf* half,
                                  SolverReport report) const;
 
-  /// Where stress lives, if not on the nodes of displacement.
+  /// The mesh of stress where tetrahedra have sharp edges.
   struct Seen {
     SplitGrid split;
     CellsOfNodes cells;
@@ -56,18 +55,17 @@ struct Model::Impl {
   Grid grid;
   CellsOfNodes cells;
   std::vector<std::vector<std::int32_t>> colours;
-  CellMaterials materials{Material{}};
-  NodeIntegrals integrals;   // of the volume, weighted with the density relative to body.material's
-  std::optional<Seen> seen;  // only of several materials, or with sharp edges of tetrahedra
+  NodeIntegrals integrals;  // of the volume
+  std::optional<Seen> seen;
   mutable std::shared_ptr<const FactorisedBody> factor{};
 
-  PerCell<double> relative_density() const { return materials.density(body.material.density_kg_m3); }
+  Lame elastic() const { return lame(body.material); }
 
   BodyOfRanks on_ranks(const std::function<const MirroredHalf*()>& half_of_body) const {
-    return {communicator, grid, cells, materials, half_of_body};
+    return {communicator, grid, cells, elastic(), half_of_body};
   }
 
-  /// Of a body of one material that is its own mirror image, and free; null for others. Looked for once.
+  /// The half of a free body that is its own mirror image; null for others. Looked for once.
   const MirroredHalf* half() const {
     if (!half_) {
       half_.emplace();
@@ -89,13 +87,10 @@ Model::Model(const Body& body, MPI_Comm communicator, const Progress& progress)
   impl_->communicator = communicator;
   impl_->body = body;
   impl_->grid = make_grid(body);
-  impl_->materials = CellMaterials(impl_->grid, body);
   impl_->cells = cells_of_nodes(impl_->grid);
   impl_->colours = colour_cells(impl_->grid, impl_->cells);
-  impl_->integrals = integrate_nodes(impl_->grid, impl_->colours, impl_->relative_density());
-  if (!impl_->materials.is_uniform() && impl_->grid.hanging.n() > 0)
-    throw std::invalid_argument("a body of several materials cannot be refined locally");
-  auto split = split_for_stress(impl_->grid, impl_->cells, impl_->materials);
+  impl_->integrals = integrate_nodes(impl_->grid, impl_->colours);
+  auto split = split_at_sharp_edges(impl_->grid, impl_->cells);
   if (split.copy.empty()) return;
   auto& seen = impl_->seen.emplace();
   seen.split = std::move(split);
@@ -117,11 +112,8 @@ MassProperties Model::mass_properties() const {
 }
 
 MassProperties Model::mass_properties(const std::vector<int>& volume_ids) const {
-  auto masses =
-      fem::mass_properties(impl_->grid, integrate_nodes(impl_->grid, volume_ids, impl_->relative_density()),
-                           impl_->body.material.density_kg_m3);
-  if (impl_->seen) masses.volume_m3 = integrate_nodes(impl_->grid, volume_ids).col(0).sum();
-  return masses;
+  return fem::mass_properties(impl_->grid, integrate_nodes(impl_->grid, volume_ids),
+                              impl_->body.material.density_kg_m3);
 }
 
 GeometryError Model::geometry_error(const std::vector<LoadSurface>& seats) const {
@@ -129,8 +121,8 @@ GeometryError Model::geometry_error(const std::vector<LoadSurface>& seats) const
 }
 
 SolverReport Model::predict_solver(std::size_t n_loads, const SolverChoice& choice) const {
-  return fem::predict_solver(impl_->grid, impl_->cells, impl_->materials,
-                             choice.by_halves ? impl_->half() : nullptr, n_loads, choice);
+  return fem::predict_solver(impl_->grid, impl_->cells, choice.by_halves ? impl_->half() : nullptr, n_loads,
+                             choice);
 }
 
 std::vector<NaturalMode> Model::natural_frequencies(int n_modes,
@@ -153,8 +145,7 @@ std::vector<NaturalMode> Model::natural_frequencies(int n_modes,
 
 std::vector<NaturalMode> Model::Impl::natural_frequencies(int n_modes,
                                                           const std::vector<AttachedMass>& attached) const {
-  auto modes =
-      fem::natural_frequencies(VibratingBody(grid, cells, colours, body, materials, attached), n_modes);
+  auto modes = fem::natural_frequencies(VibratingBody(grid, cells, colours, body, attached), n_modes);
   for (auto& mode : modes)
     set_hanging_rows(grid.hanging, Eigen::Map<NodeRows>(mode.shape.data(), Eigen::Index(grid.n_nodes), 3));
   if (seen)
@@ -178,7 +169,7 @@ void Model::Impl::estimate_errors(std::vector<NaturalMode>& modes,
   for (const auto& clamp : body.clamps) loaded.push_back(clamp.boundary_id);
   for (const auto& support : body.elastic_supports) loaded.push_back(support.surface.boundary_id);
   for (const auto& mass : attached) loaded.push_back(mass.surface.boundary_id);
-  const auto elastic = materials.elastic();
+  const Lame elastic = this->elastic();
   recover_stress(on, seen ? seen->cells : cells, elastic, body.cylinders, loaded, true, displacement, stress);
   set_hanging_rows(grid.hanging, stress);
   const auto energies = energy_error(on, elastic, displacement, stress);
@@ -191,56 +182,32 @@ void Model::Impl::estimate_errors(std::vector<NaturalMode>& modes,
 
 namespace {
 
-/// Nothing if it gives up, which the report then tells.
-std::optional<Solution> try_iteratively(const Grid& grid, const CellMaterials& materials,
-                                        const BalancedLoads& loads, const SolverChoice& choice,
-                                        const Progress& progress, SolverReport& report) {
-  std::string failure;
-  try {
-    if (auto solution = solve_iteratively(grid, materials, loads, choice, progress, failure)) return solution;
-  } catch (const SolveFailed& error) {
-    failure = error.what();
-  }
-  turn_to_factor(failure, report);
-  return std::nullopt;
-}
-
-/// On one rank, by the solver that the report names; by the other one if the iterative one gives up, if the
-/// factor does not fit into memory, or if it turns out too expensive for cells of middling stretch; the
-/// report then tells.
+/// On one rank, by the solver that the report names, or by the iteration if the factor does not fit into
+/// memory; the report then tells.
 /// @param half_of_body  that of a body that is solved by halves, or null; not looked for before it is needed
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
-               const std::vector<std::vector<std::int32_t>>& colours, const CellMaterials& materials,
+               const std::vector<std::vector<std::int32_t>>& colours, const PerCell<Lame>& elastic,
                const std::function<const MirroredHalf*()>& half_of_body, const BalancedLoads& loads,
                SolverChoice choice, const Progress& progress, SolverReport& report,
                DirectSolveOptions direct) {
-  choice.coarse_level = report.coarse_level;
-  const auto iterate = [&] { return try_iteratively(grid, materials, loads, choice, progress, report); };
-  if (report.used == Solver::iterative)
-    if (auto solution = iterate()) return std::move(*solution);
-  const auto factorise = [&](DirectSolveOptions options) {
-    const auto* half = half_of_body();
-    return half != nullptr
-               ? solve_by_halves(*half, materials, loads, progress, std::move(options))
-               : solve_directly(grid, cells, colours, materials, loads, progress, std::move(options));
-  };
-  direct.is_too_expensive = [&](const FactorSize& factor) {
-    return is_too_expensive(factor, report, std::size_t(loads.force.cols()));
-  };
-  try {
-    if (auto solution = factorise(std::move(direct))) return std::move(*solution);
-  } catch (const DoesNotFit&) {
-    if (!loads.clamped.empty() || !may_be_iterated(grid, materials, choice, report, free_memory())) throw;
-    report.used = Solver::iterative;
-    report.reason += ", but the factor does not fit into memory";
-    choice.max_iterations *= patience;
-    if (auto solution = iterate()) return std::move(*solution);
-    throw;
-  }
-  report.used = Solver::iterative;
-  report.reason += ", but the factor is expensive";
-  if (auto solution = iterate()) return std::move(*solution);
-  return *factorise({});
+  auto* const kept = direct.kept;
+  if (report.used == Solver::direct) try {
+      const auto* half = half_of_body();
+      return half != nullptr
+                 ? solve_by_halves(*half, elastic, loads, progress, std::move(direct))
+                 : solve_directly(grid, cells, colours, elastic, loads, progress, std::move(direct));
+    } catch (const DoesNotFit&) {
+      if (!may_turn_to_iteration(choice, report)) throw;
+      turn_to_iteration(grid.n_unknowns(), free_memory(), report);
+    }
+  progress(0.05, "prepare levels");
+  release_free_memory();
+  choice.solver = Solver::iterative;
+  const auto levels = std::make_shared<PetscSolver>(
+      BodyOnRanks{MPI_COMM_SELF, grid, cells, elastic, std::vector<int>(grid.n_nodes, 0)}, loads.clamped,
+      choice);
+  if (kept != nullptr) *kept = levels;
+  return levels->solve_whole(loads, progress);
 }
 
 }  // namespace
@@ -263,22 +230,15 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
 
   report(0, "loads");
   const ElasticSupports springs(grid, impl_->body.elastic_supports);
-  responses.solver =
-      choose_solver(grid, impl_->materials, loads.size() + std::size_t(springs.unit_forces().cols()), choice,
-                    memory_of_all_machines(impl_->communicator));
-  if (!clamped.empty()) {
-    responses.solver.used = Solver::direct;
-    responses.solver.by_analysis = false;
-    responses.solver.reason = "the body is clamped";
-  }
+  responses.solver = choose_solver(grid, loads.size() + std::size_t(springs.unit_forces().cols()), choice,
+                                   memory_of_all_machines(impl_->communicator));
   const auto half_of_body = [&] { return choice.by_halves ? impl_->half() : nullptr; };
   if (n_ranks(impl_->communicator) > 1) {
     const SeenMesh mesh{seen, seen_cells, impl_->seen ? impl_->seen->split.copy : std::vector<std::int32_t>(),
                         impl_->seen ? impl_->seen->volumes : impl_->integrals};
     respond_on_ranks(impl_->on_ranks(half_of_body), mesh,
-                     {loads, springs, clamped, impl_->body, impl_->integrals, impl_->relative_density()},
-                     recovery == Recovery::patch, report, choice,
-                     choice.keep_factor ? &impl_->factor : nullptr, responses);
+                     {loads, springs, clamped, impl_->body, impl_->integrals}, recovery == Recovery::patch,
+                     report, choice, choice.keep_factor ? &impl_->factor : nullptr, responses);
     respond_on_sections(seen, planes, responses);
     respond_on_rings(seen, impl_->body, responses);
     return responses;
@@ -292,8 +252,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
                                 : PlannedFactor(grid, impl_->cells);
     });
   }
-  Eigen::MatrixXd force = load_vectors(grid, impl_->integrals, impl_->body.material.density_kg_m3, loads,
-                                       impl_->relative_density());
+  Eigen::MatrixXd force = load_vectors(grid, impl_->integrals, impl_->body.material.density_kg_m3, loads);
   const Eigen::MatrixXd applied = resultants(grid, force, Eigen::Vector3d::Zero());
   responses.resultants.resize(loads.size());
   for (Eigen::Index k = 0; k < n_loads; ++k)
@@ -308,7 +267,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
     const RigidBalance rigid(grid, impl_->integrals);
     BalancedLoads balanced = balance(rigid, clamped, std::move(force));
     move_to_masters(grid.hanging, balanced.force);
-    Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->materials, half_of_body, balanced,
+    Solution solution = solve(grid, impl_->cells, impl_->colours, impl_->elastic(), half_of_body, balanced,
                               choice, report, responses.solver, std::move(direct));
     take_report(solution, std::size_t(balanced.force.cols()), responses);
     balanced = {};
@@ -331,7 +290,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   }
 
   report(0.85, "recover");
-  const auto elastic = impl_->materials.elastic();
+  const auto elastic = impl_->elastic();
   const Eigen::Map<const RowMajor> displacement(responses.displacement_m.data(), seen.n_nodes, 3 * n_loads);
   responses.stress_Pa.resize(seen.n_nodes * std::size_t(n_loads) * 6);
   Eigen::Map<RowMajor> stress(responses.stress_Pa.data(), seen.n_nodes, 6 * n_loads);
@@ -349,11 +308,12 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   return responses;
 }
 
-/// By the factor that is kept, or by the solver that the responses have, with as much patience as any has.
+/// By the factor or the levels that are kept, or by the solver that the responses have.
 Eigen::MatrixXd Model::Impl::dual_solutions(const BalancedLoads& loads, const MirroredHalf* half,
                                             SolverReport report) const {
   const auto n_columns = loads.force.cols();
   const int n = n_ranks(communicator);
+  if (factor && factor->is_on_all_ranks()) return factor->solve(loads.force);
   char is_kept = factor && (half != nullptr || !factor->takes_even_loads_only()) ? 1 : 0;  // on rank 0
   take_from_first(communicator, &is_kept, 1);
   if (is_kept != 0) {
@@ -363,13 +323,12 @@ Eigen::MatrixXd Model::Impl::dual_solutions(const BalancedLoads& loads, const Mi
     return dual;
   }
   SolverChoice choice;
-  choice.max_iterations *= patience;
   const auto no_progress = [](double, const std::string&) {};
   const auto half_of_body = [&] { return half; };
   if (n == 1) {
     DirectSolveOptions direct;
     direct.kept = &factor;
-    return solve(grid, cells, colours, materials, half_of_body, loads, choice, no_progress, report,
+    return solve(grid, cells, colours, elastic(), half_of_body, loads, choice, no_progress, report,
                  std::move(direct))
         .displacement;
   }
@@ -399,11 +358,10 @@ void Model::release_factor() const {
 std::vector<std::vector<double>> Model::goal_errors_Pa(const UnitResponses& responses,
                                                        const std::vector<StressGoal>& goals) const {
   const auto& grid = impl_->grid;
-  if (grid.shape().is_tetrahedron() || impl_->seen)
-    throw std::invalid_argument("goal_errors_Pa: for hexahedra of one material");
+  if (grid.shape().is_tetrahedron()) throw std::invalid_argument("goal_errors_Pa: for hexahedra");
   if (responses.nodes.n != grid.n_nodes || responses.nodes.n_cells() != grid.n_cells())
     throw std::invalid_argument("goal_errors_Pa: the responses are of another model");
-  const auto elastic = impl_->materials.elastic();
+  const auto elastic = impl_->elastic();
   const ElasticSupports springs(grid, impl_->body.elastic_supports);
   const auto n_goals = Eigen::Index(goals.size()), n_springs = springs.unit_forces().cols();
   Eigen::MatrixXd force(3 * Eigen::Index(grid.n_nodes), n_goals + n_springs);

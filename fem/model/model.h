@@ -29,7 +29,7 @@ public:
   explicit Environment(int n_threads);
   ~Environment();
   Environment(const Environment&) = delete;
-  /// Of this rank.
+  /// Threads of this rank.
   static int n_threads();
   Environment& operator=(const Environment&) = delete;
 
@@ -55,14 +55,14 @@ public:
   /// what solves together with the others
   /// @param progress told that reading starts; may be empty
   /// @throws MeshUnusable if the mesh cannot be read, has inverted cells or several pieces
-  /// @throws std::invalid_argument for impossible material values, or a material of a group without cells
+  /// @throws std::invalid_argument for impossible material values
   explicit Model(const Body& body, MPI_Comm communicator = MPI_COMM_WORLD, const Progress& progress = {});
   ~Model();
   Model(Model&&) noexcept;
 
   std::size_t n_dofs() const;
   MassProperties mass_properties() const;
-  /// Of the cells of some volume groups.
+  /// Mass properties of the cells of some volume groups.
   /// @throws std::invalid_argument if one of the groups has no cells
   MassProperties mass_properties(const std::vector<int>& volume_ids) const;
 
@@ -76,27 +76,29 @@ public:
   /// @throws DoesNotFit if no solver would fit into this machine's memory
   SolverReport predict_solver(std::size_t n_loads, const SolverChoice& choice) const;
 
-  /// The unit loads' responses, all loads as one block: by one factorisation (CHOLMOD, of one half after the
-  /// other or of one alone where the body is its own mirror image, solvers/mirrored_halves.h, on rank 0
-  /// alone; of other bodies MUMPS on several ranks) on a statically determinate support, or by conjugate
-  /// gradients on the free body. Every load vector is balanced by a rigid-mode body force, f - M R (R'MR)^-1
-  /// R'f, so the support carries nothing; displacements have no rigid part in the mass norm. The body's
-  /// elastic supports act on these displacements, and their forces close among themselves. A body with clamps
-  /// is held by them instead, and solved directly: loads act as they are, displacements are those in space.
+  /// The unit loads' responses: by one factorisation (CHOLMOD, of one half after the other or of one alone
+  /// where the body is its own mirror image, solvers/mirrored_halves.h, on rank 0 alone; of other bodies
+  /// MUMPS on several ranks) on a statically determinate support, or by conjugate gradients on the free body.
+  /// Every load vector is balanced by a rigid-mode body force, f - M R (R'MR)^-1 R'f, so the support carries
+  /// nothing; displacements have no rigid part in the mass norm. The body's elastic supports act on these
+  /// displacements, and their forces close among themselves. A body with clamps is held by them instead:
+  /// loads act as they are, displacements are those in space.
   /// @param progress called with a share 0..1 and the name of the step that starts; may be empty
   /// @param choice of the solver; UnitResponses::solver tells which one was taken and why
   /// @throws std::invalid_argument for an empty list, a repeated channel, a surface without faces,
   /// clamps that leave a rigid motion, clamps together with elastic supports
-  /// @throws SolveFailed if the factorisation fails, or rounding reaches 1 % of displacements
+  /// @throws SolveFailed if the factorisation fails, rounding reaches 1 % of displacements, or the iteration
+  /// does not end; DoesNotFit if no solver fits into memory
   UnitResponses unit_responses(const std::vector<UnitLoad>& loads, const std::vector<SectionPlane>& planes,
                                Recovery recovery = Recovery::patch, const Progress& progress = {},
                                const SolverChoice& choice = {}) const;
 
   /// What each cell contributes to the errors of stresses at places, estimated (adaptivity/goal_errors.h).
-  /// One more solve for each goal; by the factor of unit_responses where SolverChoice::keep_factor kept it.
+  /// One more solve for each goal; by the factor or levels of unit_responses where SolverChoice::keep_factor
+  /// kept them.
   /// @param responses  of this model
   /// @return goal after goal, one value per cell [Pa]; their sum estimates the error of the goal
-  /// @throws std::invalid_argument for tetrahedra, several materials, goals that do not fit the responses
+  /// @throws std::invalid_argument for tetrahedra, goals that do not fit the responses
   /// @throws SolveFailed as unit_responses
   std::vector<std::vector<double>> goal_errors_Pa(const UnitResponses& responses,
                                                   const std::vector<StressGoal>& goals) const;

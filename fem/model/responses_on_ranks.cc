@@ -117,9 +117,9 @@ BalancedLoads loads_of_part(const BodyOfRanks& body, const SharedLoads& loads, c
   };
   for (std::size_t first = 0; first < n_loads; first += loads_at_once) {
     const auto begin = loads.unit_loads.begin() + std::ptrdiff_t(first);
-    Eigen::MatrixXd force = load_vectors(
-        grid, loads.integrals, loads.body.material.density_kg_m3,
-        {begin, begin + std::ptrdiff_t(std::min(loads_at_once, n_loads - first))}, loads.relative_density);
+    Eigen::MatrixXd force =
+        load_vectors(grid, loads.integrals, loads.body.material.density_kg_m3,
+                     {begin, begin + std::ptrdiff_t(std::min(loads_at_once, n_loads - first))});
     if (resultants != nullptr) {
       const Eigen::MatrixXd applied = fem::resultants(grid, force, Eigen::Vector3d::Zero());
       for (Eigen::Index k = 0; k < applied.cols(); ++k)
@@ -165,7 +165,7 @@ void respond_on_ranks(const BodyOfRanks& body, const SeenMesh& seen, const Share
 
   progress(0.85, "recover");
   release_free_memory();
-  const auto elastic = body.materials.elastic();
+  const auto elastic = body.elastic;
   {
     const auto patches = recovery_case(seen.grid, elastic, loaded_groups(loads.unit_loads, loads.body));
     RowMajor stress = recover_stress_on_ranks(seen.grid, seen.cells, elastic, loads.body.cylinders,

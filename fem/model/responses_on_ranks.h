@@ -28,7 +28,6 @@ struct SharedLoads {
   const std::vector<std::int64_t>& clamped;  ///< unknowns
   const Body& body;
   const NodeIntegrals& integrals;
-  const PerCell<double> relative_density;
 };
 
 /// What a solution tells beside displacements.

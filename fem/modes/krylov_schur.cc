@@ -9,27 +9,22 @@
 // small shares grow.
 #include "fem/modes/krylov_schur.h"
 
-#include <slepceps.h>
-
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <exception>
 #include <limits>
-#include <mutex>
 #include <numeric>
 #include <random>
 #include <string>
-#include <type_traits>
 #include <vector>
 
+#include "fem/matrices/petsc_session.h"
 #include "fem/values/errors.h"
 
 namespace fem {
 
 namespace {
-
-static_assert(std::is_same_v<PetscScalar, double>, "PETSc and SLEPc of real numbers in double precision");
 
 // |K^-1 M x - x / w^2| in the mass norm, over 1 / w^2. Inertia forces are left unbalanced by some ten times
 // that, 1e-4 of them at most are accepted (natural_frequencies.cc); squares of frequencies are off by its
@@ -51,60 +46,7 @@ Eigen::VectorXd pseudo_random(Eigen::Index n_rows, unsigned seed) {
   return x;
 }
 
-/// PETSc as long as modes are searched for: without options from outside, and silent. fem::Environment has
-/// begun it as a part of deal.II, unless MPI belongs to a program around this one: then it begins and ends
-/// here, on this rank alone.
-class QuietPetsc {
-public:
-  QuietPetsc() : begins_here_(SlepcInitializeCalled == PETSC_FALSE) {
-    if (begins_here_) {
-      PETSC_COMM_WORLD = MPI_COMM_SELF;
-      check(SlepcInitializeNoArguments());
-      PetscPopSignalHandler();
-    }
-    PetscPushErrorHandler(keep_first_message, &message_);
-    PetscOptionsCreate(&no_options_);
-    PetscOptionsPush(no_options_);
-  }
-  ~QuietPetsc() {
-    PetscOptionsPop();
-    PetscOptionsDestroy(&no_options_);
-    PetscPopErrorHandler();
-    if (begins_here_) SlepcFinalize();
-  }
-  QuietPetsc(const QuietPetsc&) = delete;
-  QuietPetsc& operator=(const QuietPetsc&) = delete;
-
-  /// @throws SolveFailed with PETSc's message if a call failed
-  void check(PetscErrorCode code) const {
-    if (code != 0) fail("SLEPc's error " + std::to_string(code) + ", " + message_);
-  }
-
-private:
-  static PetscErrorCode keep_first_message(MPI_Comm, int, const char*, const char*, PetscErrorCode code,
-                                           PetscErrorType, const char* text, void* message) {
-    auto& first = *static_cast<std::string*>(message);
-    if (first.empty() && text != nullptr) first = text;
-    return code;
-  }
-
-  bool begins_here_;
-  PetscOptions no_options_ = nullptr;
-  std::string message_;
-};
-
-/// A PETSc object that is destroyed with its handle.
-template <typename Object, auto destroy>
-struct Handle {
-  Object object = nullptr;
-  Handle() = default;
-  ~Handle() { destroy(&object); }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-};
-using Matrix = Handle<Mat, MatDestroy>;
-using Vector = Handle<Vec, VecDestroy>;
-using EigenSolver = Handle<EPS, EPSDestroy>;
+using EigenSolver = PetscHandle<EPS, EPSDestroy>;
 
 /// What SLEPc's callbacks know of a search.
 struct Search {
@@ -184,7 +126,7 @@ PetscErrorCode test_stop(EPS, PetscInt n_restarts, PetscInt most, PetscInt n_con
 /// Vectors of PETSc on the columns of matrices, which outlive them.
 class Columns {
 public:
-  void add(const QuietPetsc& petsc, const Eigen::MatrixXd& x) {
+  void add(const PetscSession& petsc, const Eigen::MatrixXd& x) {
     for (Eigen::Index c = 0; c < x.cols(); ++c) {
       auto& vector = handles_.emplace_back();
       petsc.check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(x.rows()), x.col(c).data(),
@@ -196,19 +138,19 @@ public:
   Vec* data() { return vectors_.data(); }
 
 private:
-  std::deque<Vector> handles_;
+  std::deque<PetscVector> handles_;
   std::vector<Vec> vectors_;
 };
 
-void make_shell(const QuietPetsc& petsc, Search& search, PetscErrorCode (*multiply)(Mat, Vec, Vec),
-                Matrix& matrix) {
+void make_shell(const PetscSession& petsc, Search& search, PetscErrorCode (*multiply)(Mat, Vec, Vec),
+                PetscMatrix& matrix) {
   const auto n = static_cast<PetscInt>(search.problem.n_rows);
   petsc.check(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, &search, &matrix.object));
   petsc.check(MatShellSetOperation(matrix.object, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
 }
 
 /// (K - 0 M)^-1 by the problem's own inverse.
-void shift_and_invert_about_zero(const QuietPetsc& petsc, Search& search, EPS solver) {
+void shift_and_invert_about_zero(const PetscSession& petsc, Search& search, EPS solver) {
   ST transformation = nullptr;
   petsc.check(EPSGetST(solver, &transformation));
   petsc.check(STSetType(transformation, STSINVERT));
@@ -225,7 +167,7 @@ void shift_and_invert_about_zero(const QuietPetsc& petsc, Search& search, EPS so
   petsc.check(PCShellSetApply(inverse, apply_inverse));
 }
 
-Eigenpairs converged_pairs(const QuietPetsc& petsc, EPS solver, Eigen::Index n_rows) {
+Eigenpairs converged_pairs(const PetscSession& petsc, EPS solver, Eigen::Index n_rows) {
   PetscInt n = 0;
   petsc.check(EPSGetConverged(solver, &n));
   Eigenpairs pairs{Eigen::VectorXd(n), Eigen::MatrixXd(n_rows, n)};
@@ -238,11 +180,11 @@ Eigenpairs converged_pairs(const QuietPetsc& petsc, EPS solver, Eigen::Index n_r
 
 /// Some of the lowest modes beside those left out and found, ascending.
 /// @param n_most  that end the search; it ends before where all n_modes are known, found ones included
-Eigenpairs search_beside(const QuietPetsc& petsc, const VibrationProblem& problem, const Eigenpairs& found,
+Eigenpairs search_beside(const PetscSession& petsc, const VibrationProblem& problem, const Eigenpairs& found,
                          int n_modes, int n_most, const Eigen::MatrixXd& start) {
   Search search{problem, std::size_t(n_modes), {}};
   for (const double square : found.value) search.known.push_back(1 / square);
-  Matrix stiffness, mass;
+  PetscMatrix stiffness, mass;
   make_shell(petsc, search, apply_stiffness, stiffness);
   make_shell(petsc, search, apply_mass, mass);
   Columns beside, begin;
@@ -291,9 +233,7 @@ Eigenpairs joined(const Eigenpairs& a, const Eigenpairs& b) {
 }  // namespace
 
 Eigenpairs lowest_modes(const VibrationProblem& problem, int n_modes) {
-  static std::mutex one_at_a_time;  // PETSc's options and handlers are those of the process
-  const std::lock_guard<std::mutex> lock(one_at_a_time);
-  const QuietPetsc petsc;
+  const PetscSession petsc;
   const auto n_rows = problem.n_rows;
   Eigenpairs found{Eigen::VectorXd(0), Eigen::MatrixXd(n_rows, 0)};
   for (unsigned i = 1; i <= most_searches; ++i) {

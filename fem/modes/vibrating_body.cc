@@ -13,9 +13,9 @@ namespace fem {
 
 VibratingBody::VibratingBody(const Grid& grid, const CellsOfNodes& cells,
                              const std::vector<std::vector<std::int32_t>>& colours, const Body& body,
-                             const CellMaterials& materials, const std::vector<AttachedMass>& attached)
+                             const std::vector<AttachedMass>& attached)
     : graph_(make_node_graph(grid, cells)),
-      mass_(grid, colours, graph_, materials.density_kg_m3()),
+      mass_(grid, colours, graph_, body.material.density_kg_m3),
       attached_(grid, attached),
       matrix_(make_matrix(graph_)),
       springs_(grid, body.elastic_supports),
@@ -23,7 +23,7 @@ VibratingBody::VibratingBody(const Grid& grid, const CellsOfNodes& cells,
   if (!clamped_.empty() && !body.elastic_supports.empty())
     throw std::invalid_argument(
         "natural frequencies of a body with clamps and elastic supports: leave one of them out");
-  assemble_stiffness(grid, colours, graph_, materials.elastic(), matrix_);
+  assemble_stiffness(grid, colours, graph_, lame(body.material), matrix_);
   const auto order = order_nodes(graph_);
   if (!clamped_.empty()) {
     clamp(clamped_, matrix_);

@@ -13,7 +13,6 @@
 #include "fem/matrices/symmetric_matrix.h"
 #include "fem/mesh/grid.h"
 #include "fem/modes/attached_masses.h"
-#include "fem/operators/cell_materials.h"
 #include "fem/operators/mass_matrix.h"
 #include "fem/values/body.h"
 
@@ -29,7 +28,7 @@ public:
   /// @throws SolveFailed if the factorisation fails
   VibratingBody(const Grid& grid, const CellsOfNodes& cells,
                 const std::vector<std::vector<std::int32_t>>& colours, const Body& body,
-                const CellMaterials& materials, const std::vector<AttachedMass>& attached);
+                const std::vector<AttachedMass>& attached);
 
   Eigen::Index n_unknowns() const noexcept { return static_cast<Eigen::Index>(matrix_.n); }
   /// Without the clamped unknowns and the rigid motions that nothing holds.

@@ -1,7 +1,7 @@
 #include "fem/operators/nodes_export.h"
 
 #include "fem/mesh/cell_geometry.h"
-#include "fem/operators/material_interfaces.h"
+#include "fem/operators/sharp_edges.h"
 #include "fem/triangulation/body_grid.h"
 #include "fem/values/body_nodes.h"
 #include "fem/values/vtk_order.h"
@@ -76,7 +76,7 @@ NodeRows sum_of_own_channels(const UnitResponses& responses, NodalField field,
 
 Nodes body_nodes(const Body& body) {
   const Grid grid = make_grid(body);
-  return export_nodes(grid_of_stress(grid, CellMaterials(grid, body)));
+  return export_nodes(split_at_sharp_edges(grid, cells_of_nodes(grid)).grid);
 }
 
 }  // namespace fem

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fem/mesh/cell_order.h"
+#include "fem/ranks/deal_out_cells.h"
 #include "fem/ranks/ranks.h"
 #include "fem/values/cell_shares.h"
 #include "fem/values/vtk_order.h"
@@ -32,14 +32,10 @@ Subdomain make_subdomain(const Grid& grid, const std::vector<std::int32_t>& cell
     for (int i = 0; i < grid.nodes_per_cell(); ++i)
       result.grid.cell_nodes.push_back(number[grid.nodes_of(c)[i]]);
   }
-  const auto take = [&](const std::vector<BoundaryFace>& from, std::vector<BoundaryFace>& to) {
-    for (auto face : from) {
-      face.cell = place[face.cell];
-      if (face.cell >= 0) to.push_back(face);
-    }
-  };
-  take(grid.boundary, result.grid.boundary);
-  take(grid.interfaces, result.grid.interfaces);
+  for (auto face : grid.boundary) {
+    face.cell = place[face.cell];
+    if (face.cell >= 0) result.grid.boundary.push_back(face);
+  }
   const auto& hanging = grid.hanging;
   for (std::size_t i = 0; i < hanging.n(); ++i) {
     const auto node = number[hanging.node[i]];
@@ -92,7 +88,7 @@ Subdomain make_subdomain(const Nodes& nodes) {
 }
 
 std::vector<int> shares_of_cells(const Nodes& nodes, int n_shares) {
-  return deal_out_cells(make_subdomain(nodes).grid, even_weights(n_shares));
+  return deal_out_cells(make_subdomain(nodes).grid, n_shares);
 }
 
 std::shared_ptr<SharedRows> share_rows(MPI_Comm communicator, const Nodes& nodes) {
@@ -235,36 +231,13 @@ std::shared_ptr<SharedRows> share_rows(MPI_Comm communicator, const Grid& grid,
 }
 
 RankPart::RankPart(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic, int of_rank,
-                   const std::vector<double>& weights)
+                   int n_ranks)
     : rank(of_rank),
-      rank_of_cell(deal_out_cells(grid, weights)),
+      rank_of_cell(deal_out_cells(grid, n_ranks)),
       rank_of_node(ranks_of_nodes(grid, rank_of_cell)),
       share(share_of_rank(grid, cells, rank_of_cell, rank, elastic)),
       n_unknowns(n_unknowns_of_rank(grid, rank_of_node, rank)) {
   for (const auto node : share.part.node) counted.push_back(rank_of_node[std::size_t(node)] == rank ? 1 : 0);
-}
-
-std::size_t RankPart::n_counted() const {
-  return std::size_t(std::count(counted.begin(), counted.end(), 1));
-}
-
-std::vector<Neighbour> neighbours_of(const RankPart& part, const Grid& grid, const CellsOfNodes& cells,
-                                     int n_ranks) {
-  const auto& own = part.share.part.node;
-  std::vector<Neighbour> result;
-  for (int r = 0; r < n_ranks; ++r) {
-    if (r == part.rank) continue;
-    const auto nodes =
-        nodes_of_cells(grid, with_cells_hung_on(grid, cells, cells_of_rank(part.rank_of_cell, r)));
-    Neighbour neighbour{r, {}};
-    auto other = nodes.begin();
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      other = std::lower_bound(other, nodes.end(), own[i]);
-      if (other != nodes.end() && *other == own[i]) neighbour.nodes.push_back(std::int32_t(i));
-    }
-    if (!neighbour.nodes.empty()) result.push_back(std::move(neighbour));
-  }
-  return result;
 }
 
 std::vector<Lame> elastic_of(const Subdomain& subdomain, const PerCell<Lame>& elastic) {

@@ -63,23 +63,15 @@ struct StiffnessShare {
 StiffnessShare share_of_rank(const Grid& grid, const CellsOfNodes& cells_of_nodes,
                              const std::vector<int>& rank_of_cell, int rank, const PerCell<Lame>& elastic);
 
-/// Nodes of one's own that another rank's cells have too, ascending in the body's numbers on both sides.
-struct Neighbour {
-  int rank = 0;
-  std::vector<std::int32_t> nodes;  ///< numbers in the subdomain
-};
-
 /// What a rank has of a body. All ranks have the mesh, and deal its cells out alike.
 struct RankPart {
-  RankPart(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic, int rank,
-           const std::vector<double>& weights);
+  RankPart(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic, int rank, int n_ranks);
 
   int rank;
   std::vector<int> rank_of_cell, rank_of_node;
   StiffnessShare share;
-  std::vector<char> counted;      ///< of the share's nodes: those that this rank counts
-  std::size_t n_unknowns = 0;     ///< at those nodes
-  std::size_t n_counted() const;  ///< those nodes
+  std::vector<char> counted;   ///< of the share's nodes: those that this rank counts
+  std::size_t n_unknowns = 0;  ///< at those nodes
 
   /// Rows of the share's nodes, `n_rows` each, of those of the whole body.
   template <typename Whole>
@@ -92,10 +84,6 @@ struct RankPart {
     return part;
   }
 };
-
-/// Of that rank, ranks ascending.
-std::vector<Neighbour> neighbours_of(const RankPart& part, const Grid& grid, const CellsOfNodes& cells,
-                                     int n_ranks);
 
 /// Lame's constants of a subdomain's cells, one after another.
 std::vector<Lame> elastic_of(const Subdomain& subdomain, const PerCell<Lame>& elastic);

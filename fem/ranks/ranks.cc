@@ -148,4 +148,13 @@ double memory_of_all_machines(MPI_Comm communicator) {
   return sum;
 }
 
+double free_memory_of_rank(MPI_Comm communicator) {
+  if (n_ranks(communicator) == 1) return free_memory();
+  MPI_Comm machine;
+  MPI_Comm_split_type(communicator, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  const int n = n_ranks(machine);
+  MPI_Comm_free(&machine);
+  return free_memory() / n;
+}
+
 }  // namespace fem

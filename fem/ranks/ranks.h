@@ -58,7 +58,10 @@ void take_from_first(MPI_Comm communicator, void* values, std::size_t n_bytes);
 /// What each rank did, on all of them.
 std::vector<RankWork> gather_work(MPI_Comm communicator, const RankWork& mine);
 
-/// Of all machines that the ranks run on [bytes].
+/// Memory of all machines that the ranks run on [bytes].
 double memory_of_all_machines(MPI_Comm communicator);
+
+/// This rank's share of the memory that its machine has left [bytes].
+double free_memory_of_rank(MPI_Comm communicator);
 
 }  // namespace fem

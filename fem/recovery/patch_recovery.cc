@@ -33,9 +33,8 @@ enum class Centre : char { none, interior, boundary };
 std::vector<Centre> choose_centres(const Grid& grid) {
   const auto corners = corner_nodes(grid.shape());
   std::vector<char> on_boundary(grid.n_nodes, 0);
-  for (const auto* faces : {&grid.boundary, &grid.interfaces})
-    for (const auto& face : *faces)
-      for (const auto node : nodes_of_face(grid, face.cell, face.face)) on_boundary[node] = 1;
+  for (const auto& face : grid.boundary)
+    for (const auto node : nodes_of_face(grid, face.cell, face.face)) on_boundary[node] = 1;
   std::vector<Centre> centre(grid.n_nodes, Centre::none);
   for (std::size_t c = 0; c < grid.n_cells(); ++c) {
     bool interior = false;

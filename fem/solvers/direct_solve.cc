@@ -36,12 +36,12 @@ double rounding(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& correction,
 void refuse_rounding(const Grid& grid, double share) {
   if (share <= most_rounding) return;
   std::ostringstream message;
-  message
-      << "rounding reaches " << 100 * share << " % of the displacements, " << 100 * most_rounding
-      << " % at most are accepted: the body is too slender for its cells (stretched up to 1 : "
-      << largest_aspect(grid)
-      << ") or its materials too unlike for a solution in double precision; use cells of a more equal shape, "
-         "shorten the body, or check lengths and moduli";
+  message << "rounding reaches " << 100 * share << " % of the displacements, " << 100 * most_rounding
+          << " % at most are accepted: the body is too slender for its cells (stretched up to 1 : "
+          << largest_aspect(grid)
+          << ") for a solution in double precision; use cells of a more equal shape, shorten the body, or "
+             "check its "
+             "lengths";
   throw SolveFailed(message.str());
 }
 
@@ -136,14 +136,12 @@ private:
 
 }  // namespace
 
-std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cells,
-                                       const std::vector<std::vector<std::int32_t>>& colours,
-                                       const CellMaterials& materials, const BalancedLoads& loads,
-                                       const StepReport& progress, DirectSolveOptions options) {
+Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
+                        const std::vector<std::vector<std::int32_t>>& colours, const PerCell<Lame>& elastic,
+                        const BalancedLoads& loads, const StepReport& progress, DirectSolveOptions options) {
   progress(0.05, "order");
   PlannedFactor plan = options.plan.valid() ? options.plan.get() : PlannedFactor(grid, cells);
   CholmodFactor& factor = *plan.factor;
-  if (options.is_too_expensive && options.is_too_expensive(factor.size())) return std::nullopt;
   const double beside = bytes_per_response * static_cast<double>(loads.force.size()),
                needed = factor.size().bytes + beside;
   make_room(needed);
@@ -153,7 +151,7 @@ std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cel
   progress(0.15, "assemble");
   factor.take_memory();
   SymmetricMatrix matrix = make_matrix(plan.graph);
-  assemble_stiffness(grid, colours, plan.graph, materials.elastic(), matrix, plan.place);
+  assemble_stiffness(grid, colours, plan.graph, elastic, matrix, plan.place);
   const Holding holding(grid, loads, plan.place, matrix);
 
   progress(0.25, "factorise");

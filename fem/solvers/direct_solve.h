@@ -2,15 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <future>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "fem/loads/balanced_loads.h"
 #include "fem/matrices/cholmod_factor.h"
-#include "fem/operators/cell_materials.h"
+#include "fem/operators/stiffness.h"
 
 namespace fem {
 
@@ -37,23 +35,25 @@ public:
 
   /// Whether what is not mirrored of other loads is left out (mirrored_halves.h).
   virtual bool takes_even_loads_only() const { return false; }
+
+  /// Whether every MPI rank has a part of it, and all call solve together.
+  virtual bool is_on_all_ranks() const { return false; }
 };
 
 /// Of the stiffness, without computing it.
 FactorSize analyse_factor(const Grid& grid, const CellsOfNodes& cells);
 
 struct DirectSolveOptions {
-  std::future<PlannedFactor> plan{};  ///< if it was begun before
-  /// Asked once the factor is planned: if so, nothing is solved and nothing returned.
-  std::function<bool(const FactorSize&)> is_too_expensive{};
+  std::future<PlannedFactor> plan{};                      ///< if it was begun before
   std::shared_ptr<const FactorisedBody>* kept = nullptr;  ///< if given, holds the factor afterwards
 };
 
+/// @throws DoesNotFit if the analysed factor is larger than the memory that is free
 /// @throws SolveFailed as CholmodFactor, or if rounding reaches more than 1 % of displacements
-std::optional<Solution> solve_directly(const Grid& grid, const CellsOfNodes& cells,
-                                       const std::vector<std::vector<std::int32_t>>& colours,
-                                       const CellMaterials& materials, const BalancedLoads& loads,
-                                       const StepReport& progress, DirectSolveOptions options = {});
+Solution solve_directly(const Grid& grid, const CellsOfNodes& cells,
+                        const std::vector<std::vector<std::int32_t>>& colours, const PerCell<Lame>& elastic,
+                        const BalancedLoads& loads, const StepReport& progress,
+                        DirectSolveOptions options = {});
 
 /// The largest share of a load case's displacement that the correction is; of those cases that need one.
 double rounding(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& correction,

@@ -165,9 +165,8 @@ std::vector<double> MirroredHalf::signs_of_tensors() const {
   return signs;
 }
 
-std::optional<Solution> solve_by_halves(const MirroredHalf& half, const CellMaterials& materials,
-                                        const BalancedLoads& loads, const StepReport& progress,
-                                        DirectSolveOptions options) {
+Solution solve_by_halves(const MirroredHalf& half, const PerCell<Lame>& elastic, const BalancedLoads& loads,
+                         const StepReport& progress, DirectSolveOptions options) {
   std::array<PartLoads, 2> parts{part_loads(half, loads, Parity::even), part_loads(half, loads, Parity::odd)};
   // What has no part at all (loads that their own balance takes away) is even, too.
   if (parts[0].columns.empty() && parts[1].columns.empty()) {
@@ -191,29 +190,22 @@ std::optional<Solution> solve_by_halves(const MirroredHalf& half, const CellMate
     DirectSolveOptions of_part;
     if (options.plan.valid()) of_part.plan = std::move(options.plan);
     if (options.kept != nullptr) of_part.kept = &kept[std::size_t(parity)];
-    if (options.is_too_expensive)
-      of_part.is_too_expensive = [&](FactorSize size) {
-        size.flops *= n_parts;
-        size.entries *= n_parts;
-        return options.is_too_expensive(size);
-      };
     const double before = parity == Parity::odd && is_both ? 1 : 0;
     const auto told = [&](double share, const std::string& step) {
       progress((before + share) / n_parts, step);
     };
-    const auto part = solve_directly(half.grid(), half.cells(), half.colours(), materials, of_half, told,
-                                     std::move(of_part));
-    if (!part) return std::nullopt;
-    half.add_to_whole(part->displacement, parity, own, solution.displacement);
-    solution.residual = std::max(solution.residual, part->residual);
-    solution.rounding = std::max(solution.rounding, part->rounding);
-    solution.support_reaction = std::max(solution.support_reaction, part->support_reaction);
-    solution.factor_gigabytes += part->factor_gigabytes;
-    solution.factor.n_dofs += part->factor.n_dofs;
-    solution.factor.entries += part->factor.entries;
-    solution.factor.flops += part->factor.flops;
-    solution.factor.bytes += part->factor.bytes;
-    solution.bytes += part->bytes;
+    const auto part =
+        solve_directly(half.grid(), half.cells(), half.colours(), elastic, of_half, told, std::move(of_part));
+    half.add_to_whole(part.displacement, parity, own, solution.displacement);
+    solution.residual = std::max(solution.residual, part.residual);
+    solution.rounding = std::max(solution.rounding, part.rounding);
+    solution.support_reaction = std::max(solution.support_reaction, part.support_reaction);
+    solution.factor_gigabytes += part.factor_gigabytes;
+    solution.factor.n_dofs += part.factor.n_dofs;
+    solution.factor.entries += part.factor.entries;
+    solution.factor.flops += part.factor.flops;
+    solution.factor.bytes += part.factor.bytes;
+    solution.bytes += part.bytes;
   }
   solution.is_even = parts[1].columns.empty();
   if (options.kept != nullptr) *options.kept = std::make_shared<FactorisedHalves>(half, std::move(kept));

@@ -5,7 +5,6 @@
 
 #include <Eigen/Dense>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "fem/mesh/mirror_plane.h"
@@ -73,8 +72,7 @@ private:
 /// As solve_directly, one factorisation for each parity that the loads have a part of.
 /// @param options  its plan, if any, of half.grid(); the kept factor leaves out what has a parity that no
 /// load has
-std::optional<Solution> solve_by_halves(const MirroredHalf& half, const CellMaterials& materials,
-                                        const BalancedLoads& loads, const StepReport& progress,
-                                        DirectSolveOptions options = {});
+Solution solve_by_halves(const MirroredHalf& half, const PerCell<Lame>& elastic, const BalancedLoads& loads,
+                         const StepReport& progress, DirectSolveOptions options = {});
 
 }  // namespace fem

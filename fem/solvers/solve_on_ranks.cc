@@ -1,14 +1,13 @@
 #include "fem/solvers/solve_on_ranks.h"
 
+#include <algorithm>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "fem/common/memory.h"
-#include "fem/mesh/cell_order.h"
 #include "fem/ranks/ranks.h"
-#include "fem/solvers/direct_on_ranks.h"
-#include "fem/solvers/iterative_on_ranks.h"
+#include "fem/ranks/row_exchange.h"
+#include "fem/solvers/petsc_solver.h"
 #include "fem/solvers/solver_prediction.h"
 #include "fem/values/errors.h"
 
@@ -16,111 +15,135 @@ namespace fem {
 
 namespace {
 
-enum class Factor { solved, too_expensive, does_not_fit };
-
-/// What rank 0 tells of its solution, beside displacements.
+/// What rank 0 tells of its solution by halves, beside displacements.
 struct Told {
-  Factor outcome = Factor::solved;
+  bool is_solved = false;
   double residual = 0, rounding = 0, support_reaction = 0, factor_gigabytes = 0, bytes = 0;
   FactorSize factor{};
   bool is_even = false;
 };
 
-class Solving {
-public:
-  Solving(const BodyOfRanks& body, const std::function<BalancedLoads(const RankPart&)>& loads,
-          const StepReport& progress, SolverReport& report)
-      : body_(body), loads_(loads), progress_(progress), report_(report) {}
+/// Places of some nodes among others, both ascending.
+std::vector<Eigen::Index> places_among(const std::vector<std::int32_t>& nodes,
+                                       const std::vector<std::int32_t>& all) {
+  std::vector<Eigen::Index> places;
+  auto at = all.begin();
+  for (const auto node : nodes) {
+    at = std::lower_bound(at, all.end(), node);
+    places.push_back(at - all.begin());
+  }
+  return places;
+}
 
-  /// Nothing if it gives up, which the report then tells.
-  std::optional<PartSolution> iterate(const SolverChoice& choice) const {
-    std::string failure;
+/// Nodal forces of the whole body on rank 0, from those that each rank counts; empty on the others.
+Eigen::MatrixXd on_first(const Grid& grid, const RankPart& part, const Eigen::MatrixXd& own,
+                         MPI_Comm communicator) {
+  const bool is_first = part.rank == 0;
+  const auto& node = part.share.part.node;
+  const auto n_unknowns = 3 * Eigen::Index(grid.n_nodes);
+  Eigen::MatrixXd whole(is_first ? n_unknowns : 0, is_first ? own.cols() : 0);
+  Eigen::VectorXd column;
+  for (Eigen::Index k = 0; k < own.cols(); ++k) {
+    column.setZero(n_unknowns);
+    for (std::size_t i = 0; i < node.size(); ++i)
+      if (part.counted[i] != 0)
+        column.segment<3>(3 * Eigen::Index(node[i])) = own.col(k).segment<3>(3 * Eigen::Index(i));
+    add_on_first(communicator, column.data(), std::size_t(column.size()));
+    if (is_first) whole.col(k) = column;
+  }
+  return whole;
+}
+
+/// Displacements at the nodes of the part, from those of the whole body on rank 0.
+Eigen::MatrixXd from_first(const Grid& grid, const RankPart& part, const Eigen::MatrixXd& whole,
+                           Eigen::Index n_columns, MPI_Comm communicator) {
+  Eigen::MatrixXd own(3 * Eigen::Index(part.share.part.node.size()), n_columns);
+  Eigen::MatrixXd column(3 * Eigen::Index(grid.n_nodes), 1);
+  for (Eigen::Index k = 0; k < n_columns; ++k) {
+    if (part.rank == 0) column = whole.col(k);
+    take_from_first(communicator, column.data(), sizeof(double) * std::size_t(column.size()));
+    own.col(k) = part.rows_of(column, 3);
+  }
+  return own;
+}
+
+/// On rank 0. Nothing if the factor does not fit.
+std::optional<Solution> factorise_halves(const BodyOfRanks& body, const RankPart& part,
+                                         const BalancedLoads& loads, const StepReport& progress,
+                                         std::shared_ptr<const FactorisedBody>* kept) {
+  auto of_whole = loads;
+  of_whole.force = on_first(body.grid, part, loads.force, body.communicator);
+  Told told;
+  Solution solution;
+  on_first_rank(body.communicator, [&] {
+    DirectSolveOptions options;
+    options.kept = kept;
     try {
-      const double modulus_Pa = body_.materials.largest_modulus_Pa();
-      PartSolution found{part(weights_of_iteration(n_ranks(body_.communicator)), modulus_Pa), {}};
-      const auto loads = loads_(found.part);
-      if (auto solution = solve_iteratively_on_ranks(body_.grid, body_.cells, body_.materials, found.part,
-                                                     loads, choice, progress_, failure, body_.communicator)) {
-        found.solution = std::move(*solution);
-        return found;
-      }
-    } catch (const FailedTogether& error) {
-      failure = error.what();
+      solution = solve_by_halves(*body.half(), body.elastic, of_whole, progress, std::move(options));
+    } catch (const DoesNotFit&) {
+      return;
     }
-    turn_to_factor(failure, report_);
-    return std::nullopt;
-  }
+    told = {true,
+            solution.residual,
+            solution.rounding,
+            solution.support_reaction,
+            solution.factor_gigabytes,
+            solution.bytes,
+            solution.factor,
+            solution.is_even};
+  });
+  take_from_first(body.communicator, &told, sizeof told);
+  if (!told.is_solved) return std::nullopt;
+  solution.displacement =
+      from_first(body.grid, part, solution.displacement, loads.force.cols(), body.communicator);
+  solution.residual = told.residual;
+  solution.rounding = told.rounding;
+  solution.support_reaction = told.support_reaction;
+  solution.factor_gigabytes = told.factor_gigabytes;
+  solution.bytes = told.bytes;
+  solution.factor = told.factor;
+  solution.is_even = told.is_even;
+  return solution;
+}
 
-  PartSolution factorise() const {
-    PartSolution found{even_part(), {}};
-    found.solution = solve_directly_on_ranks(body_.grid, body_.cells, found.part, loads_(found.part),
-                                             progress_, body_.communicator);
-    return found;
-  }
+/// On all ranks.
+Solution solve_together(const BodyOfRanks& body, const RankPart& part, const BalancedLoads& loads,
+                        const SolverChoice& choice, const StepReport& progress,
+                        std::shared_ptr<const FactorisedBody>* kept) {
+  progress(0.05, "assemble");
+  const auto solver = std::make_shared<PetscSolver>(
+      BodyOnRanks{body.communicator, body.grid, body.cells, body.elastic, part.rank_of_node}, loads.clamped,
+      choice);
+  const auto& node = part.share.part.node;
+  const auto own = places_among(solver->nodes(), node);
+  BalancedLoads of_rows;
+  of_rows.norm = loads.norm;
+  of_rows.largest_entry = loads.largest_entry;
+  of_rows.force.resize(3 * Eigen::Index(own.size()), loads.force.cols());
+  for (std::size_t i = 0; i < own.size(); ++i)
+    of_rows.force.middleRows<3>(3 * Eigen::Index(i)) = loads.force.middleRows<3>(3 * own[i]);
+  Solution solution = solver->solve_rows(of_rows, progress);
 
-  /// On rank 0.
-  /// @param limited  not if it turns out too expensive
-  std::optional<PartSolution> factorise_halves(bool limited, std::shared_ptr<const FactorisedBody>* kept,
-                                               Factor& outcome) const {
-    PartSolution found{even_part(), {}};
-    auto loads = loads_(found.part);
-    const auto n_loads = loads.force.cols();
-    loads.force = on_first(body_.grid, found.part, loads.force, body_.communicator);
-    Told told;
-    std::optional<Solution> whole;
-    on_first_rank(body_.communicator, [&] {
-      DirectSolveOptions options;
-      options.kept = kept;
-      if (limited)
-        options.is_too_expensive = [&](const FactorSize& factor) {
-          return is_too_expensive(factor, report_, std::size_t(n_loads));
-        };
-      try {
-        whole = solve_by_halves(*body_.half(), body_.materials, loads, progress_, std::move(options));
-        told.outcome = whole ? Factor::solved : Factor::too_expensive;
-      } catch (const DoesNotFit&) {
-        told.outcome = Factor::does_not_fit;
-      }
-      if (whole)
-        told = {
-            told.outcome, whole->residual, whole->rounding, whole->support_reaction, whole->factor_gigabytes,
-            whole->bytes, whole->factor,   whole->is_even};
-    });
-    take_from_first(body_.communicator, &told, sizeof told);
-    outcome = told.outcome;
-    if (outcome != Factor::solved) return std::nullopt;
-    auto& solution = found.solution;
-    solution.residual = told.residual;
-    solution.rounding = told.rounding;
-    solution.support_reaction = told.support_reaction;
-    solution.factor_gigabytes = told.factor_gigabytes;
-    solution.bytes = told.bytes;
-    solution.factor = told.factor;
-    solution.is_even = told.is_even;
-    solution.displacement = from_first(
-        body_.grid, found.part, whole ? whole->displacement : Eigen::MatrixXd(), n_loads, body_.communicator);
-    return found;
-  }
-
-  /// As rank 0 finds it: free memory differs.
-  bool may_be_iterated(const SolverChoice& choice) const {
-    char may = fem::may_be_iterated(body_.grid, body_.materials, choice, report_, free_memory()) ? 1 : 0;
-    take_from_first(body_.communicator, &may, 1);
-    return may != 0;
-  }
-
-private:
-  RankPart part(const std::vector<double>& weights, double modulus_Pa) const {
-    return {body_.grid, body_.cells, body_.materials.elastic(modulus_Pa), this_rank(body_.communicator),
-            weights};
-  }
-  RankPart even_part() const { return part(even_weights(n_ranks(body_.communicator)), 1); }
-
-  const BodyOfRanks& body_;
-  const std::function<BalancedLoads(const RankPart&)>& loads_;
-  const StepReport& progress_;
-  SolverReport& report_;
-};
+  const auto shared = share_rows(body.communicator, body.grid, part.rank_of_cell);
+  const auto n_columns = loads.force.cols();
+  RowExchange::Rows rows = RowExchange::Rows::Zero(Eigen::Index(shared->node.size()), 3 * n_columns);
+  const auto counted = places_among(solver->nodes(), shared->node);
+  for (std::size_t i = 0; i < counted.size(); ++i)
+    for (Eigen::Index k = 0; k < n_columns; ++k)
+      for (Eigen::Index d = 0; d < 3; ++d)
+        rows(counted[i], 3 * k + d) = solution.displacement(3 * Eigen::Index(i) + d, k);
+  const RowExchange::Rows at_part = RowExchange(*shared, node)(rows);
+  solution.displacement.resize(3 * Eigen::Index(node.size()), n_columns);
+  for (Eigen::Index i = 0; i < at_part.rows(); ++i)
+    for (Eigen::Index k = 0; k < n_columns; ++k)
+      for (Eigen::Index d = 0; d < 3; ++d) solution.displacement(3 * i + d, k) = at_part(i, 3 * k + d);
+  solution.ranks =
+      gather_work(body.communicator, {part.share.n_own_cells(), part.n_unknowns, solution.bytes});
+  solution.bytes = 0;
+  for (const auto& work : solution.ranks) solution.bytes += work.bytes;
+  if (kept != nullptr) *kept = solver;
+  return solution;
+}
 
 }  // namespace
 
@@ -128,22 +151,29 @@ PartSolution solve_on_ranks(const BodyOfRanks& body,
                             const std::function<BalancedLoads(const RankPart&)>& loads, SolverChoice choice,
                             const StepReport& progress, SolverReport& report,
                             std::shared_ptr<const FactorisedBody>* kept) {
-  const Solving solving(body, loads, progress, report);
-  choice.coarse_level = report.coarse_level;
-  if (report.used == Solver::iterative)
-    if (auto found = solving.iterate(choice)) return std::move(*found);
-  if (body.half() == nullptr) return solving.factorise();
-  Factor outcome{};
-  if (auto found = solving.factorise_halves(true, kept, outcome)) return std::move(*found);
-  if (outcome == Factor::does_not_fit && !solving.may_be_iterated(choice)) return solving.factorise();
-  report.used = Solver::iterative;
-  report.reason += outcome == Factor::does_not_fit ? ", but the factor does not fit into memory"
-                                                   : ", but the factor is expensive";
-  if (outcome == Factor::does_not_fit) choice.max_iterations *= patience;
-  if (auto found = solving.iterate(choice)) return std::move(*found);
-  if (outcome == Factor::does_not_fit) return solving.factorise();
-  if (auto found = solving.factorise_halves(false, kept, outcome)) return std::move(*found);
-  return solving.factorise();
+  PartSolution found{
+      RankPart(body.grid, body.cells, body.elastic, this_rank(body.communicator), n_ranks(body.communicator)),
+      {}};
+  const auto of_part = loads(found.part);
+  if (report.used == Solver::direct) {
+    if (body.half() != nullptr)
+      if (auto solution = factorise_halves(body, found.part, of_part, progress, kept)) {
+        found.solution = std::move(*solution);
+        return found;
+      }
+    const bool may_turn = may_turn_to_iteration(choice, report);
+    try {
+      choice.solver = Solver::direct;
+      found.solution = solve_together(body, found.part, of_part, choice, progress, kept);
+      return found;
+    } catch (const DoesNotFit&) {
+      if (!may_turn) throw;
+      turn_to_iteration(body.grid.n_unknowns(), memory_of_all_machines(body.communicator), report);
+    }
+  }
+  choice.solver = Solver::iterative;
+  found.solution = solve_together(body, found.part, of_part, choice, progress, kept);
+  return found;
 }
 
 }  // namespace fem

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "fem/loads/balanced_loads.h"
-#include "fem/operators/cell_materials.h"
+#include "fem/operators/stiffness.h"
 #include "fem/operators/subdomain.h"
 #include "fem/solvers/direct_solve.h"
 #include "fem/solvers/mirrored_halves.h"
@@ -20,7 +20,7 @@ struct BodyOfRanks {
   MPI_Comm communicator;
   const Grid& grid;
   const CellsOfNodes& cells;
-  const CellMaterials& materials;
+  const PerCell<Lame> elastic;
   std::function<const MirroredHalf*()> half;  ///< of a body that is solved by halves, or null
 };
 
@@ -30,11 +30,11 @@ struct PartSolution {
   Solution solution;
 };
 
-/// As on one rank by the solver that the report names, or by the other one if that gives up or does not fit:
-/// conjugate gradients on all ranks; the factor of halves on rank 0, which has a third of the work or less;
-/// MUMPS' of the whole body on all ranks. Called on all ranks.
+/// By the solver that the report names, or by the next one that fits into memory: the factor of halves on
+/// rank 0, which has a third of the work or less; MUMPS' of the whole body on all ranks; the iteration.
+/// Called on all ranks.
 /// @param loads  forces at the nodes of a part; their sizes are those of the body
-/// @param kept   if given, has the factor of halves afterwards, on rank 0
+/// @param kept   if given, has the factor or the levels afterwards; halves on rank 0 alone
 PartSolution solve_on_ranks(const BodyOfRanks& body,
                             const std::function<BalancedLoads(const RankPart&)>& loads, SolverChoice choice,
                             const StepReport& progress, SolverReport& report,

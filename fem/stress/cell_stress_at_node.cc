@@ -9,23 +9,10 @@
 #include "fem/stress/cell_stress.h"
 
 namespace fem {
-namespace {
 
-const Material& material_of(const Nodes& nodes, std::size_t cell, const Material& material,
-                            const std::map<int, Material>& material_of_volume) {
-  if (material_of_volume.empty()) return material;
-  if (nodes.cell_volume_id.size() != nodes.n_cells())
-    throw std::invalid_argument(
-        "cell_stress_at_node_Pa: materials by volume, but the responses do not tell the volumes of cells");
-  const auto own = material_of_volume.find(nodes.cell_volume_id[cell]);
-  return own == material_of_volume.end() ? material : own->second;
-}
-
-}  // namespace
-
-std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(
-    const UnitResponses& responses, const Material& material, std::size_t node,
-    const std::map<int, Material>& material_of_volume) {
+std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(const UnitResponses& responses,
+                                                                       const Material& material,
+                                                                       std::size_t node) {
   const auto& nodes = responses.nodes;
   std::vector<std::int32_t> around;
   for (std::size_t c = 0; c < nodes.n_cells(); ++c) {
@@ -47,9 +34,8 @@ std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(
     const auto* local = part.grid.nodes_of(c);
     const auto own = std::find(local, local + part.grid.nodes_per_cell(), std::int32_t(place)) - local;
     const auto at = tabulate_in_cell(nodes.shape(), {nodes_in_cell(nodes.shape()).point[std::size_t(own)]});
-    const auto& of_cell = material_of(nodes, std::size_t(around[c]), material, material_of_volume);
     RowMajor stress(1, 2 * displacement.cols());
-    CellStress(part.grid, at, lame(of_cell), displacement)(c, stress);
+    CellStress(part.grid, at, lame(material), displacement)(c, stress);
     auto& tensors = stress_Pa.emplace_back(responses.channels.size());
     std::copy_n(stress.data(), stress.size(), tensors.front().data());
   }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <vector>
 
 #include "fem/values/body.h"
@@ -11,13 +10,12 @@
 
 namespace fem {
 
-/// @param material  of the body; of volume groups with a material of their own, that of material_of_volume
-/// @param node      index into responses.nodes
+/// @param node  index into responses.nodes
 /// @return for each cell K tensors (xx, yy, zz, xy, yz, xz) [Pa], one per unit load
-/// @throws std::invalid_argument if no cell holds the node, or it is not known which volume a cell belongs to
-std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(
-    const UnitResponses& responses, const Material& material, std::size_t node,
-    const std::map<int, Material>& material_of_volume = {});
+/// @throws std::invalid_argument if no cell holds the node
+std::vector<std::vector<std::array<double, 6>>> cell_stress_at_node_Pa(const UnitResponses& responses,
+                                                                       const Material& material,
+                                                                       std::size_t node);
 
 /// How far single cells are from the recovered stress, at every node that is asked for.
 /// @param factors  one per node: where its load case stands, one factor per channel; null: not asked for

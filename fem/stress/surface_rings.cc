@@ -4,7 +4,6 @@
 
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/charts.h"
-#include "fem/operators/cell_materials.h"
 #include "fem/stress/sections.h"
 
 namespace fem {
@@ -14,7 +13,7 @@ namespace {
 struct RingNode {
   std::int32_t node = 0;
   double z_m = 0, radius_m = 0;
-  int boundary_id = 0, material = 0;
+  int boundary_id = 0;
 };
 
 bool is_flat(const Grid& grid, const std::vector<std::int32_t>& nodes) {
@@ -33,8 +32,6 @@ std::vector<RingNode> concentric_nodes(const Grid& grid, const Body& body) {
   std::map<int, bool> concentric;  // by volume
   for (const auto& chart : body.cylinders)
     concentric[chart.volume_id] = chart.shift_x_m == 0 && chart.shift_y_m == 0;
-  const CellMaterials materials(grid, body);
-  std::map<std::int32_t, int> material;                // a node belongs to cells of one (SplitGrid)
   std::map<std::int32_t, std::pair<bool, int>> group;  // not a fillet, id: the smallest wins
   for (const auto& face : grid.boundary) {
     const auto nodes = nodes_of_face(grid, face.cell, face.face);
@@ -46,13 +43,12 @@ std::vector<RingNode> concentric_nodes(const Grid& grid, const Body& body) {
       if (std::binary_search(grid.hanging.node.begin(), grid.hanging.node.end(), node)) continue;
       const auto known = group.emplace(node, candidate).first;
       known->second = std::min(known->second, candidate);
-      material[node] = materials.kind(std::size_t(face.cell));
     }
   }
   std::vector<RingNode> result;
   for (const auto& [node, id] : group) {
     const double* x = grid.position(node);
-    result.push_back({node, x[2], std::hypot(x[0], x[1]), id.second, material[node]});
+    result.push_back({node, x[2], std::hypot(x[0], x[1]), id.second});
   }
   return result;
 }
@@ -109,11 +105,7 @@ void respond_on_rings(const Grid& grid, const Body& body, UnitResponses& respons
       nodes.begin(), nodes.end(), tolerance, [](const RingNode& n) { return n.z_m; },
       [&](Iterator begin, Iterator end) {
         for_each_run(
-            begin, end, tolerance, [](const RingNode& n) { return n.radius_m; },
-            [&](Iterator first, Iterator last) {
-              for_each_run(
-                  first, last, 0.0, [](const RingNode& n) { return n.material; }, add_ring);
-            });
+            begin, end, tolerance, [](const RingNode& n) { return n.radius_m; }, add_ring);
       });
   if (!responses.ring_shear_Pa.empty())
     responses.sum_over_ranks(responses.ring_shear_Pa.front().data(), 2 * responses.ring_shear_Pa.size());

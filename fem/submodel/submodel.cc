@@ -16,9 +16,8 @@
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/connected_pieces.h"
 #include "fem/mesh/rigid_modes.h"
-#include "fem/operators/cell_materials.h"
-#include "fem/operators/material_interfaces.h"
 #include "fem/operators/nodes_export.h"
+#include "fem/operators/sharp_edges.h"
 #include "fem/operators/subdomain.h"
 #include "fem/recovery/recovery_on_ranks.h"
 #include "fem/solvers/direct_solve.h"
@@ -30,7 +29,7 @@ namespace {
 constexpr int rim = -1;  // boundary group of the faces where the submodel is cut out
 
 /// One number for all nodes at the same place: stress has the nodes of a sharp edge once for each side
-/// (operators/material_interfaces.h), displacement once. Cells of a body that touch share their nodes.
+/// (operators/sharp_edges.h), displacement once. Cells of a body that touch share their nodes.
 std::vector<std::int32_t> nodes_of_displacement(const Nodes& nodes) {
   std::vector<std::int32_t> number(nodes.n), on_surface = nodes.faces;
   std::iota(number.begin(), number.end(), 0);
@@ -137,8 +136,7 @@ Part join(const Nodes& nodes, const std::vector<std::int32_t>& number, Subdomain
   grid.xyz_m = std::move(xyz_m);
   grid.n_nodes = kept.size();
   joined.coarse.field.resize(Eigen::Index(kept.size()), field.cols());
-  for (std::size_t k = 0; k < kept.size(); ++k)
-    joined.coarse.field.row(Eigen::Index(k)) = field.row(kept[k]);
+  for (std::size_t k = 0; k < kept.size(); ++k) joined.coarse.field.row(Eigen::Index(k)) = field.row(kept[k]);
   add_boundary(nodes, number, of_grid, grid);
   return joined;
 }
@@ -234,10 +232,9 @@ void solve_inside(GridField& fine, const Material& material, const std::vector<i
   const auto& grid = fine.grid;
   const auto cells = cells_of_nodes(grid);
   const auto colours = colour_cells(grid, cells);
-  const CellMaterials materials(material);
   const auto graph = make_node_graph(grid, cells);
   auto stiffness = make_matrix(graph);
-  assemble_stiffness(grid, colours, graph, materials.elastic(), stiffness);
+  assemble_stiffness(grid, colours, graph, lame(material), stiffness);
   std::set<std::int64_t> clamped;
   for (const auto& face : grid.boundary)
     if (contains(held, face.boundary_id))
@@ -256,10 +253,10 @@ void solve_inside(GridField& fine, const Material& material, const std::vector<i
   loads.norm = loads.force.colwise().norm().cwiseMax(1e-300);
   loads.largest_entry = loads.force.colwise().lpNorm<Eigen::Infinity>().cwiseMax(1e-300);
   const auto solution =
-      solve_directly(grid, cells, colours, materials, loads, [](double, const std::string&) {});
+      solve_directly(grid, cells, colours, lame(material), loads, [](double, const std::string&) {});
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index k = 0; k < n_cases; ++k)
-      fine.field(i / 3, 3 * k + i % 3) += solution->displacement(i, k);
+      fine.field(i / 3, 3 * k + i % 3) += solution.displacement(i, k);
 }
 
 /// A submodel of some load cases, solved.
@@ -275,8 +272,6 @@ Solved solve_submodel(const UnitResponses& responses, const Body& body, const st
                       const std::vector<WeightedNode>& point, const Eigen::MatrixXd& cases,
                       const SubmodelControl& control) {
   if (responses.nodes.degree != 2) throw std::invalid_argument("submodel: the cells are not of degree 2");
-  if (!body.material_of_volume.empty())
-    throw std::invalid_argument("submodel: the body is of several materials");
   if (std::size_t(cases.rows()) != responses.channels.size() || loads.size() != responses.channels.size())
     throw std::invalid_argument("submodel: one load and one factor for every channel");
   for (const auto& p : point)
@@ -316,9 +311,9 @@ Eigen::RowVectorXd at_point(const Solved& solved, const std::vector<WeightedNode
   const auto& nodes = solved.part.node;
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(solved.stress.cols());
   for (const auto& p : point)
-    sum += p.weight * solved.stress.row(solved.part.row[std::size_t(
-                          std::lower_bound(nodes.begin(), nodes.end(), std::int32_t(p.node)) -
-                          nodes.begin())]);
+    sum +=
+        p.weight * solved.stress.row(solved.part.row[std::size_t(
+                       std::lower_bound(nodes.begin(), nodes.end(), std::int32_t(p.node)) - nodes.begin())]);
   return sum;
 }
 

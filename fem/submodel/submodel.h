@@ -42,18 +42,18 @@ struct SubmodelStress {
   std::size_t n_dofs = 0;
 };
 
-/// Of the sum of all channels times their factors. Surfaces that carry springs or clamps are held like the
-/// rim, those that carry loads as the control says; body forces act. What the displacement of the whole body
-/// is wrong by at the rim stays.
+/// Solves a submodel for the sum of all channels times their factors. Surfaces that carry springs or clamps
+/// are held like the rim, those that carry loads as the control says; body forces act. What the displacement
+/// of the whole body is wrong by at the rim stays.
 /// @param responses  of cells of degree 2, not refined locally: faces between large and small cells would be
 ///                   held like the rim
-/// @param body       of one material; its charts serve the recovery, its mesh is not read
+/// @param body       its charts serve the recovery, its mesh is not read
 /// @param loads      one per channel
 /// @param point      one node, or several whose weighted sum counts
 /// @param factors    one per channel
 /// @param left_out   places where the largest stress is not looked for, as beside sharp edges; null: none
-/// @throws std::invalid_argument if the cells are of another degree, the body is of several materials, there
-///         is no such node, or numbers of loads and factors are not those of the channels
+/// @throws std::invalid_argument if the cells are of another degree, there is no such node, or numbers of
+/// loads and factors are not those of the channels
 /// @throws SolveFailed as the direct solver
 SubmodelStress submodel_stress(const UnitResponses& responses, const Body& body,
                                const std::vector<UnitLoad>& loads, const std::vector<WeightedNode>& point,

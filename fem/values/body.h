@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -69,9 +68,6 @@ struct Body {
   int degree = 2;  ///< polynomial degree of displacement and of the geometry (isoparametric), 1 to 3
   /// None: a free body, whose loads inertia balances. Otherwise they hold all six rigid motions.
   std::vector<Clamp> clamps{};
-  /// By volume group, where it is not `material`. Stress jumps where materials meet: the nodes there appear
-  /// once for each of them in UnitResponses::nodes, and no recovery looks across.
-  std::map<int, Material> material_of_volume{};
 
   // In the .cc file: else every file that copies one compiles the copies of all members anew.
   Body();

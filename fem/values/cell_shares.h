@@ -11,7 +11,7 @@
 namespace fem {
 
 /// The share, 0 .. n_shares - 1, of each cell: shares of equal number, cut across the longest extent of the
-/// body. As the ranks share them where no materials meet.
+/// body. The ranks share them alike.
 std::vector<int> shares_of_cells(const Nodes& nodes, int n_shares);
 
 /// Rows for responses that the ranks read, by these shares; null on one rank.

@@ -53,7 +53,7 @@ struct Nodes {
   /// VTK_QUADRATIC_TRIANGLE; corners counter-clockwise seen from outside.
   std::vector<std::int32_t> faces;
   std::vector<std::int32_t> face_boundary_id;  ///< one per face
-  /// Of nodes that were moved to where a largest stress lies: where they stand in their cells.
+  /// Nodes that were moved to where a largest stress lies, with the place where they stand in their cells.
   std::map<std::size_t, std::array<double, 3>> moved_from_m;
 
   CellShape shape() const noexcept { return {kind, degree}; }
@@ -77,8 +77,7 @@ struct SectionResponse {
   std::array<double, 3> rotation_rad{};
 };
 
-/// A ring of surface nodes at one (z, r) of a concentric surface: mean torsional shear over the ring. Where
-/// materials meet, there is one for each of them.
+/// A ring of surface nodes at one (z, r) of a concentric surface: mean torsional shear over the ring.
 struct RimRing {
   double z_m = 0, radius_m = 0;
   std::int32_t boundary_id = 0;
@@ -96,12 +95,12 @@ struct EnergyError {
 
 struct EnergyNorms {
   double solution_sqrtJ = 0, error_sqrtJ = 0;
-  /// Of the exact solution, whose square is the sum of both: they are orthogonal in this norm. 0 without
-  /// stress.
+  /// Error relative to the exact solution, whose square is the sum of both squares: they are orthogonal in
+  /// this norm. 0 without stress.
   double relative() const;
 };
 
-/// Of the sum of all channels times their factors (K).
+/// Norms of the sum of all channels times their factors (K).
 EnergyNorms energy_norms(const EnergyError& channels, const std::vector<double>& factors);
 
 /// Where body and loads are mirror images of themselves: the image of each node and cell. The stress at a
@@ -139,7 +138,7 @@ struct UnitResponses {
   EnergyError energy_error;                          ///< empty where no cells were solved (cheap models)
   MirrorImages images;
   /// Largest support reaction over all unit loads, relative to the load vector's largest entry: must be
-  /// round-off. 0 if clamps hold the body, or the iterative solver left it free.
+  /// round-off. 0 if clamps hold the body, or the iteration leaves it free.
   double support_reaction = 0;
   /// Largest |K u - f| / |f| over all unit loads.
   double residual = 0;
@@ -152,12 +151,12 @@ struct UnitResponses {
   std::size_t node_of_row(std::size_t row) const noexcept {
     return shared ? std::size_t(shared->node[row]) : row;
   }
-  /// Of a node that this rank has.
+  /// Row of a node that this rank has.
   std::size_t row_of(std::size_t node) const noexcept {
     return shared ? std::size_t(shared->row[node]) : node;
   }
 
-  /// Of one node that this rank has, for every unit load: K x 6 [Pa], and K x 3 [m].
+  /// Rows of one node that this rank has, for every unit load: K x 6 [Pa], and K x 3 [m].
   const double* unit_stress_Pa(std::size_t node) const noexcept {
     return stress_Pa.data() + row_of(node) * channels.size() * 6;
   }

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "fem/common/blas_kernels.h"
 #include "fem/model/model.h"
 #include "fem/ranks/ranks.h"
 #include "pipelines/base/common/errors.h"
@@ -191,6 +192,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  fem::restart_with_wide_blas(argv);
   // Else what was printed waits in the C library, whose failures PETSc meets at its end, tells and forgets.
   std::ios::sync_with_stdio(false);
   if (const int fault = guarded(pipelines::require_usable_stack)) return fault;

@@ -6,7 +6,6 @@
 
 #include "pipelines/base/common/several_ranks.h"
 #include "pipelines/base/files/content_hash.h"
-#include "pipelines/respond/responses/iteration_memory.h"
 #include "pipelines/respond/responses/response_files.h"
 #include "pipelines/respond/responses/response_key.h"
 
@@ -41,8 +40,6 @@ int threads(int wanted) {
   return wanted > 0 ? wanted : int(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-/// The seconds of factorising depend on what a run before has left; results do not: where the iteration gives
-/// up, the direct solver takes over, and it is the direct solver from the start in the next run.
 Responded respond(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads, const RunOptions& options,
                   StageClock& clock) {
   const auto start = std::chrono::steady_clock::now();
@@ -60,15 +57,11 @@ Responded respond(const BodyScene& body, const MeshedBody& meshed, BodyLoads loa
   auto responses = clock.run("solve", [&] {
     fem::SolverChoice choice;
     choice.solver = body.solver;
-    if (body.solver == fem::Solver::iterative) choice.max_iterations *= fem::patience;
     choice.keep_factor = options.keep_factor;
-    choice.gave_up_before =
-        !options.fresh && iteration_gave_up_before(options.directory, body_key(meshed.body), tell);
     return meshed.model->unit_responses(
         loads.unit_loads, planes, fem::Recovery::patch,
         [&](double share, const std::string& step) { clock.advance(share, step); }, choice);
   });
-  remember_iteration(options.directory, body_key(meshed.body), responses.solver.gave_up);
   const std::chrono::duration<double> solve = std::chrono::steady_clock::now() - start;
   auto result = responded(body, meshed, std::move(loads), std::move(responses));
   result.warnings = std::move(warnings);

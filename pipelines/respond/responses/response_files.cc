@@ -202,7 +202,6 @@ fem::UnitResponses read(const Hdf5Reader& in) {
   r.solver.n_iterations = int(in.number_attribute("/", "solver_iterations"));
   r.solver.reason = in.text_attribute("/", "solver_reason");
   r.solver.rounding = in.number_attribute("/", "solver_rounding");
-  r.solver.gave_up = in.number_attribute("/", "solver_gave_up") > 0;
   r.solver.used_bytes = in.number_attribute("/", "solver_bytes");
   predicted_of_used(r.solver).bytes = in.number_attribute("/", "solver_bytes_predicted");
   if (!in.has("/ranks")) return r;
@@ -235,7 +234,6 @@ void write_unit_responses(const std::filesystem::path& path, const std::string& 
                 responses.solver.used == fem::Solver::iterative ? responses.solver.n_iterations : 0);
   out.attribute("/", "solver_reason", responses.solver.reason);
   out.attribute("/", "solver_rounding", responses.solver.rounding);
-  out.attribute("/", "solver_gave_up", responses.solver.gave_up ? 1 : 0);
   out.attribute("/", "solver_bytes", responses.solver.used_bytes);
   out.attribute("/", "solver_bytes_predicted", responses.solver.predicted().bytes);
   out.write("/channels", responses.channels);

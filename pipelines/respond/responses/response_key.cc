@@ -88,9 +88,6 @@ void describe(KeyText& key, const fem::Body& body) {
       .line("refinements", hash_of(body.refinements))
       .line("material", body.material.youngs_modulus_Pa, body.material.poisson_ratio,
             body.material.density_kg_m3);
-  for (const auto& [volume, material] : body.material_of_volume)
-    key.line("material of", volume, material.youngs_modulus_Pa, material.poisson_ratio,
-             material.density_kg_m3);
   for (const auto& c : body.cylinders)
     key.line("cylinder", c.volume_id, c.shift_x_m, c.shift_y_m, c.inner_radius_m, c.outer_radius_m,
              c.axis_x_m, c.axis_y_m);

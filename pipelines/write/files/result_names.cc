@@ -67,8 +67,7 @@ bool is_kept_file(const std::string& name) {
 }
 
 const std::vector<std::string>& kept_file_names() {
-  static const std::vector<std::string> names{"unit_responses.h5", "unit_harmonics.h5",
-                                              "iteration_gave_up.txt"};
+  static const std::vector<std::string> names{"unit_responses.h5", "unit_harmonics.h5"};
   return names;
 }
 

@@ -70,13 +70,9 @@ bool is_whole_or_gone(const fs::path& kept, const std::string& key_hash) {
 }
 
 /// What the manifest does not list: the page, which anybody may make anew, and what is kept for later runs.
-bool is_rest_whole(const fs::path& directory, const std::vector<std::string>& bodies,
-                   const RunRecord& record) {
+bool is_rest_whole(const fs::path& directory, const RunRecord& record) {
   for (const auto& [file, key_hash] : record.kept_under)
     if (!is_whole_or_gone(directory / file, key_hash)) return false;
-  for (const auto& body : bodies) {
-    if (!is_whole_or_gone(directory / body / "iteration_gave_up.txt", "")) return false;
-  }
   return text_of_file(directory / "report.html") == html_report(directory, directory / "accuracy");
 }
 
@@ -133,7 +129,7 @@ std::optional<EarlierRun> earlier_run(const fs::path& directory, const std::vect
       !contains(check.files, run_record_name) || !contains(check.files, "summary.json"))
     return std::nullopt;
   require_own_outputs(*opened, run_names(bodies));
-  if (!is_rest_whole(directory, bodies, earlier.record)) return std::nullopt;
+  if (!is_rest_whole(directory, earlier.record)) return std::nullopt;
   earlier.summary = text_of_file(directory / "summary.json");
   return earlier;
 }

@@ -131,7 +131,6 @@ Json body_json(const RunReport& report, const Judged& analysis) {
                            {"rounding", number(solver.rounding)},
                            {"support_reaction", number(analysis.responses.support_reaction)},
                            {"factor_gigabytes", number(analysis.responses.factor_gigabytes)},
-                           {"gave_up", solver.gave_up},
                            {"bytes", number(solver.used_bytes)},
                            {"predicted_bytes", number(solver.predicted().bytes)}});
   for (const auto& rank : solver.ranks)

@@ -121,7 +121,8 @@ void factorise(const Work& work) {
       ours = factor.solve(force);
     });
     whole.time([&] {
-      fem::solve_directly(grid, cells, colours, material, loads, [](double, const std::string&) {});
+      fem::solve_directly(grid, cells, colours, fem::lame(material), loads,
+                          [](double, const std::string&) {});
     });
   }
   std::printf(

@@ -45,7 +45,7 @@ Verdict step_text_case(Mutator&, const Place&);      ///< the check before OpenC
 Verdict msh_text_case(Mutator&, const Place&);       ///< the check before gmsh
 Verdict step_case(Mutator&, const Place&);           ///< the whole import
 Verdict msh_case(Mutator&, const Place&);            ///< the same
-Verdict responses_case(Mutator&, const Place&);      ///< unit_responses.h5 and iteration_gave_up.txt
+Verdict responses_case(Mutator&, const Place&);      ///< unit_responses.h5
 Verdict results_case(Mutator&, const Place&);        ///< a result directory, looked at and reported
 Verdict program_case(Mutator&, const Place&);        ///< the program on a damaged scene or table
 Verdict program_again_case(Mutator&, const Place&);  ///< the program on damaged results of an earlier run

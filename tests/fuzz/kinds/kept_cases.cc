@@ -1,5 +1,4 @@
-/// What is kept between runs: unit responses, and what is known of the iteration.
-#include "pipelines/respond/responses/iteration_memory.h"
+/// What is kept between runs: unit responses.
 #include "pipelines/respond/responses/response_files.h"
 #include "tests/fuzz/kinds/samples.h"
 #include "tests/fuzz/verdicts.h"
@@ -25,14 +24,6 @@ Verdict kept_judged(const std::string& name, bool changed,
 }  // namespace
 
 Verdict responses_case(Mutator& random, const Place& place) {
-  if (random.one_in(10)) {
-    const auto& sound = place.samples.gave_up;
-    const auto text = random.damage(sound, Grammar::bytes, sound);
-    write_bytes(place / "iteration_gave_up.txt", text);
-    return kept_judged("iteration_gave_up.txt", text != sound, [&](const pipelines::Tell& tell) {
-      return pipelines::iteration_gave_up_before(place.directory, kept_key, tell);
-    });
-  }
   const auto& sound = place.samples.responses;
   const auto bytes = random.damage(sound, Grammar::bytes, sound);
   write_bytes(place / "unit_responses.h5", bytes);

@@ -5,7 +5,6 @@
 
 #include "meshes/imported/apart.h"
 #include "pipelines/base/files/json_file.h"
-#include "pipelines/respond/responses/iteration_memory.h"
 #include "pipelines/respond/responses/response_files.h"
 #include "pipelines/write/files/manifest.h"
 #include "pipelines/write/report/html_report.h"
@@ -80,8 +79,6 @@ void add_imports(Samples& samples, const fs::path& directory) {
 void add_kept_files(Samples& samples, const fs::path& directory) {
   pipelines::write_unit_responses(directory / "r.h5", kept_key, results_test::example_responses());
   samples.responses = read_bytes(directory / "r.h5");
-  pipelines::remember_iteration(directory, kept_key, true);
-  samples.gave_up = read_bytes(directory / "iteration_gave_up.txt");
 }
 
 void add_results(Samples& samples, const fs::path& directory, const fs::path& program) {

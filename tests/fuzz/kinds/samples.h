@@ -15,7 +15,7 @@ struct Samples {
   std::vector<std::string> tables;         ///< that may stand for belt_pull.csv
   std::string sound_table;                 ///< belt_pull.csv as shipped
   std::vector<std::string> steps, meshes;  ///< of the same block with a hole, in mm
-  std::string responses, gave_up;          ///< kept under `kept_key`
+  std::string responses;                   ///< kept under `kept_key`
   std::vector<std::map<std::string, std::string>> results;  ///< files of result directories
 };
 

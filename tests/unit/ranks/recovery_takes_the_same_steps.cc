@@ -1,10 +1,9 @@
 // A rank recovers the stress of its nodes on a part of the mesh, and takes the same steps as on the whole.
 #include <gtest/gtest.h>
 
-#include "fem/mesh/cell_order.h"
 #include "fem/mesh/hanging_nodes.h"
-#include "fem/operators/cell_materials.h"
 #include "fem/operators/subdomain.h"
+#include "fem/ranks/deal_out_cells.h"
 #include "fem/ranks/ranks.h"
 #include "fem/recovery/recovery_on_ranks.h"
 #include "fem/triangulation/body_grid.h"
@@ -20,9 +19,9 @@ constexpr double alignment = 1e-14;
 void expect_same(const fem::Grid& grid, const std::vector<fem::CylinderChart>& charts,
                  const std::vector<int>& loaded) {
   const auto cells = fem::cells_of_nodes(grid);
-  const auto elastic = fem::CellMaterials(fem_tests::steel).elastic();
+  const auto elastic = fem::PerCell<fem::Lame>(fem::lame(fem_tests::steel));
   const fem::RowMajor displacement = 1e-6 * fem::RowMajor::Random(grid.n_nodes, 6);
-  const auto rank_of_cell = fem::deal_out_cells(grid, fem::even_weights(fem::n_ranks(MPI_COMM_WORLD)));
+  const auto rank_of_cell = fem::deal_out_cells(grid, fem::n_ranks(MPI_COMM_WORLD));
   const auto shared = fem::share_rows(MPI_COMM_WORLD, grid, rank_of_cell);
   ASSERT_LT(shared->node.size(), grid.n_nodes);
   const fem::RowMajor own = displacement(shared->node, Eigen::all);

@@ -184,7 +184,6 @@ TEST_P(ThinCells, StripBendsAsABeam) {
         << s.solver.reason;
     if (solver == fem::Solver::automatic) {
       EXPECT_EQ(s.solver.used, fem::Solver::direct);
-      EXPECT_NE(s.solver.reason.find("stretched"), std::string::npos) << s.solver.reason;
     }
   }
 }

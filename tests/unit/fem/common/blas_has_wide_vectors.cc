@@ -19,7 +19,7 @@ bool are_wide(const std::string& kernels) {
   return kernels != "Prescott" && kernels != "Core2" && kernels != "Nehalem" && kernels != "Generic";
 }
 
-// The environment of the tests (examples/main.cc) has mended them. OpenBLAS 0.3.21 takes "Prescott", vectors
+// The tests' main asks for them. OpenBLAS 0.3.21 takes "Prescott", vectors
 // of two numbers, for processors that it does not know. tests/run installs OpenBLAS; a user's choice goes
 // before, and a processor without wide vectors has none.
 TEST(BlasKernels, AreThoseForTheProcessorsVectors) {
@@ -34,7 +34,6 @@ TEST(BlasKernels, AreThoseForTheProcessorsVectors) {
 
 // Sums of n = 301 products in another order differ by rounding, n epsilon / 2 of the sum of sizes at most.
 TEST(BlasKernels, MultiplyMatrices) {
-  fem::mend_blas_kernels();
   const int n = 301;
   const Eigen::MatrixXd a = Eigen::MatrixXd::Random(n, n), b = Eigen::MatrixXd::Random(n, n);
   Eigen::MatrixXd c(n, n);

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include "fem/common/blas_kernels.h"
 #include "fem/common/parallel.h"
 #include "fem/model/model.h"
 
 int main(int argc, char** argv) {
+  fem::restart_with_wide_blas(argv);
   testing::InitGoogleTest(&argc, argv);
   if (testing::GTEST_FLAG(list_tests)) return RUN_ALL_TESTS();  // listing needs no MPI
   const fem::Environment environment(0);

@@ -8,7 +8,7 @@
 
 #include "fem/mesh/cell_geometry.h"
 #include "fem/mesh/connected_pieces.h"
-#include "fem/operators/material_interfaces.h"
+#include "fem/operators/sharp_edges.h"
 #include "fem/operators/subdomain.h"
 #include "fem/recovery/recovery_on_ranks.h"
 #include "tests/unit/fem/examples/tetrahedra.h"

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <string>
 
 #include "fem/model/model.h"
 #include "fem/solvers/solver_prediction.h"
 #include "fem/triangulation/body_grid.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
+#include "tests/unit/fem/examples/tetrahedra.h"
 
 namespace {
 
@@ -34,25 +37,27 @@ double difference(const std::vector<double>& a, const std::vector<double>& b, st
   return fem_tests::difference(a, b, channels, n_channels, n_components);
 }
 
-constexpr fem::SolverChoice directly{fem::Solver::direct, 1e-10, 100};
-constexpr fem::SolverChoice iteratively{fem::Solver::iterative, 1e-10, 100};
+constexpr fem::SolverChoice directly{fem::Solver::direct};
+constexpr fem::SolverChoice iteratively{fem::Solver::iterative};
 
 /// A residual of 1e-10 of the load as applied is worth as much of the response to it, more where the load is
-/// mostly balanced by the body force or bends a slender body: measured 3e-11 to 1.2e-10, a tenfold is left.
+/// mostly balanced by the body force or bends a slender body.
 constexpr double same_solution = 1e-9;
 
-void expect_agreement(const fem_tests::ShaftBody& shaft) {
+/// @return steps of the iteration
+int expect_agreement(const fem_tests::ShaftBody& shaft, double largest_difference = same_solution) {
   const auto direct = solve(shaft, directly), iterative = solve(shaft, iteratively);
   EXPECT_EQ(iterative.solver.used, fem::Solver::iterative) << iterative.solver.reason;
   EXPECT_LT(iterative.residual, 1e-9) << "the updated residual drifts from the true one by rounding";
   EXPECT_GT(iterative.solver.n_iterations, 4);
   const std::size_t n = direct.channels.size();
-  EXPECT_LT(difference(iterative.displacement_m, direct.displacement_m, n, 3), same_solution);
-  EXPECT_LT(difference(iterative.stress_Pa, direct.stress_Pa, n, 6), same_solution);
+  EXPECT_LT(difference(iterative.displacement_m, direct.displacement_m, n, 3), largest_difference);
+  EXPECT_LT(difference(iterative.stress_Pa, direct.stress_Pa, n, 6), largest_difference);
+  return iterative.solver.n_iterations;
 }
 
 TEST(Solvers, AgreeOnQuadraticCells) {
-  expect_agreement(fem_tests::eccentric_shaft(2));
+  EXPECT_LE(expect_agreement(fem_tests::eccentric_shaft(2)), 40);
 }
 
 /// Towards one end, cycle after cycle: the cells whose centres have a smaller z than the plane.
@@ -71,15 +76,41 @@ fem::Body refined(fem::Body body, const std::vector<double>& planes_m) {
   return body;
 }
 
-// 47 steps where the even mesh takes 40. Turns red: forces left at hanging nodes.
+// Turns red: forces left at hanging nodes, hanging corners as vertices of the level below.
 TEST(Solvers, AgreeOnRefinedMeshes) {
   const auto even = fem_tests::rod(8);
   auto rod = even;
   rod.body = refined(even.body, {0.05, 0.02});
   ASSERT_GT(fem::make_grid(rod.body).hanging.n(), 100u);
-  expect_agreement(rod);
-  const auto steps = solve(rod, iteratively).solver.n_iterations;
-  EXPECT_LE(steps, 1.5 * solve(even, iteratively).solver.n_iterations);
+  EXPECT_LE(expect_agreement(rod), 1.5 * solve(even, iteratively).solver.n_iterations);
+}
+
+// A bent bar, P2 cells with curved edges.
+TEST(Solvers, AgreeOnTetrahedra) {
+  const auto grid = fem_tests::tetrahedra_block({4, 4, 12}, [](const fem_tests::Point& x) {
+    return fem_tests::Point(x[0] + 0.05 * x[2] * x[2], x[1], 4 * x[2]);
+  });
+  fem_tests::ShaftBody bar;
+  bar.body.mesh = fem_tests::cells_of(grid);
+  bar.body.material = fem_tests::steel;
+  for (const int end : {1, 2}) {
+    fem::LoadSurface face;
+    face.kind = fem::LoadSurface::Kind::face;
+    face.boundary_id = 4 + end;
+    bar.ports["end_" + std::to_string(end)] = face;
+  }
+  EXPECT_LE(expect_agreement(bar), 20);
+}
+
+TEST(Solvers, AgreeOnClampedBodies) {
+  auto rod = fem_tests::rod(8);
+  rod.body.clamps = {{rod.ports.at("end_1").boundary_id}};
+  const auto direct = solve(rod, directly), iterative = solve(rod, iteratively);
+  const std::size_t n = direct.channels.size();
+  EXPECT_EQ(iterative.solver.used, fem::Solver::iterative);
+  EXPECT_LE(iterative.solver.n_iterations, 40);
+  EXPECT_LT(fem_tests::difference(iterative.displacement_m, direct.displacement_m, {0, 2, 4, 6, 7}, n, 3),
+            same_solution);
 }
 
 TEST(Solvers, AgreeOnCubicCells) {
@@ -94,18 +125,9 @@ TEST(Solvers, AgreeWithoutContraction) {
   expect_agreement(rod);
 }
 
-// Nearly incompressible: the smoother loses its grip on volume-preserving modes. Right or handed over.
-TEST(Solvers, NearIncompressibilityIsRightEitherWay) {
-  auto rod = fem_tests::rod(8);
-  rod.body.material.poisson_ratio = 0.4999;
-  const auto direct = solve(rod, directly), other = solve(rod, iteratively);
-  const std::size_t n = direct.channels.size();
-  EXPECT_LT(difference(other.displacement_m, direct.displacement_m, n, 3), same_solution)
-      << other.solver.reason;
-}
-
-// A rod of 50 mm in eight sectors with cells 0.5 mm thin: aspect about 40.
-TEST(Solvers, StretchedCellsAreRightEitherWay) {
+// A disc of 50 mm in eight sectors, all cells 0.5 mm thin, aspect about 40: 107 steps. It bends easily, so
+// that residuals are worth more of the response.
+TEST(Solvers, AgreeOnStretchedCells) {
   meshes::Shaft shaft;
   shaft.segments = {{"rod", 0, 0.005, 0.05, 0, true}};
   meshes::ShaftMeshControl control;
@@ -113,48 +135,34 @@ TEST(Solvers, StretchedCellsAreRightEitherWay) {
   control.largest_cell_m = 5e-4;
   control.min_scaled_jacobian = 0.1;
   const auto disc = fem_tests::build(shaft, control);
-  const auto direct = solve(disc, directly), other = solve(disc, iteratively), automatic = solve(disc, {});
-  const std::size_t n = direct.channels.size();
-  EXPECT_GT(direct.solver.largest_aspect, 15);
-  EXPECT_LT(difference(other.displacement_m, direct.displacement_m, n, 3), same_solution);
-  EXPECT_EQ(automatic.solver.used, fem::Solver::direct);
-  EXPECT_NE(automatic.solver.reason.find("stretched"), std::string::npos) << automatic.solver.reason;
+  EXPECT_GT(solve(disc, {}).solver.largest_aspect, 15);
+  EXPECT_LE(expect_agreement(disc, 1e-8), 120);
 }
 
-// A shoulder between long plain cylinders, 94 k unknowns: one cell in fourteen is stretched more than 1 : 12,
-// up to 1 : 17, and the analysed factor is expensive.
-TEST(Solvers, FewCellsOfMiddlingStretchAreIteratedWhereTheFactorIsDear) {
-  meshes::Shaft shaft;
-  shaft.segments = {{"left", 0, 0.06, 0.04, 0, true},
-                    {"thin", 0.06, 0.14, 0.04},
-                    {"thick", 0.14, 0.24, 0.06},
-                    {"right", 0.24, 0.3, 0.06, 0, true}};
-  shaft.fillets_m = {0, 0.004, 0};
-  meshes::ShaftMeshControl control;
-  control.subdivisions = 2;
-  control.cells_per_fillet_quarter = 4;
-  control.growth = 0.5;
-  const auto body = fem_tests::build(shaft, control);
-  const auto automatic = solve(body, {});
-  EXPECT_GT(automatic.solver.largest_aspect, 12);
-  EXPECT_EQ(automatic.solver.used, fem::Solver::iterative);
-  EXPECT_NE(automatic.solver.reason.find("the factor is expensive"), std::string::npos)
-      << automatic.solver.reason;
-  EXPECT_LT(automatic.residual, 1e-9) << "the updated residual drifts from the true one by rounding";
-}
-
-TEST(Solvers, StallFallsBackToTheDirectSolverAndSaysSo) {
+TEST(Solvers, IterationThatDoesNotEndIsToldWithARemedy) {
   const auto rod = fem_tests::rod(8);
-  const auto direct = solve(rod, directly), stalled = solve(rod, {fem::Solver::iterative, 1e-10, 3});
-  EXPECT_EQ(stalled.solver.used, fem::Solver::direct);
-  EXPECT_EQ(
-      stalled.solver.reason,
-      "the iteration did not converge after 3 steps; solved directly; half by half, the body being its own "
-      "mirror image");
-  EXPECT_TRUE(stalled.solver.gave_up);
-  EXPECT_FALSE(direct.solver.gave_up);
-  EXPECT_EQ(stalled.displacement_m, direct.displacement_m);
-  EXPECT_GT(stalled.factor_gigabytes, 0);
+  try {
+    solve(rod, {fem::Solver::iterative, 1e-10, 3});
+    FAIL() << "three steps are not enough";
+  } catch (const fem::SolveFailed& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("did not converge after 3 steps"), std::string::npos) << text;
+    EXPECT_NE(text.find("solver = \"direct\""), std::string::npos) << text;
+  }
+}
+
+// Turns red: options of other programs taken for ours.
+TEST(Solvers, TakesOwnOptionsOfPetscAlone) {
+  const auto rod = fem_tests::rod(8);
+  const auto steps = [&](const char* options) {
+    setenv("PETSC_OPTIONS", options, 1);
+    const int n = solve(rod, iteratively).solver.n_iterations;
+    unsetenv("PETSC_OPTIONS");
+    return n;
+  };
+  const int usual = steps("");
+  EXPECT_EQ(steps("-mg_levels_ksp_max_it 1 -ksp_type preonly"), usual);
+  EXPECT_GT(steps("-ksp_rtol 1 -fem_mg_levels_ksp_max_it 1 -pc_type none"), usual);
 }
 
 TEST(Solvers, IterationRepeatsBitForBitAndScalesWithLoadAndModulus) {
@@ -167,27 +175,16 @@ TEST(Solvers, IterationRepeatsBitForBitAndScalesWithLoadAndModulus) {
     ASSERT_EQ(stiff.displacement_m[i] * 1024, once.displacement_m[i]);
 }
 
-TEST(SolverChoice, FollowsPredictionMemoryAndKindOfCell) {
+TEST(SolverChoice, IsTheFactorUnlessAskedOtherwise) {
   auto body = fem_tests::rod(8);
-  const auto grid = fem::make_grid(body.body);
-  const auto steel = fem_tests::steel;
-  const auto used = [&](double memory_bytes) {
-    return fem::choose_solver(grid, steel, 12, {}, memory_bytes).used;
+  const auto used = [&](fem::Solver solver) {
+    return fem::choose_solver(fem::make_grid(body.body), 12, {solver}, 1e12).used;
   };
-  const auto report = fem::choose_solver(grid, steel, 12, {}, 1e12);
-  EXPECT_EQ(report.used, fem::Solver::direct) << "a small body saves nothing";
-  EXPECT_EQ(fem::choose_solver(grid, steel, 12, {fem::Solver::iterative, 1e-10, 100}, 1e12).used,
-            fem::Solver::iterative);
-  // Between the two needs of memory the one that fits is taken, whatever its time.
-  ASSERT_NE(report.predicted_direct.bytes, report.predicted_iterative.bytes);
-  const bool direct_is_smaller = report.predicted_direct.bytes < report.predicted_iterative.bytes;
-  EXPECT_EQ(used(std::sqrt(report.predicted_direct.bytes * report.predicted_iterative.bytes) +
-                 fem::bytes_beside_solver(3 * grid.n_nodes, 12)),
-            direct_is_smaller ? fem::Solver::direct : fem::Solver::iterative);
-  EXPECT_EQ(fem::choose_solver(grid, fem::Material{206e9, 0.4999, 7850}, 12, {}, 1e12).used,
-            fem::Solver::direct);
+  EXPECT_EQ(used(fem::Solver::automatic), fem::Solver::direct);
+  EXPECT_EQ(used(fem::Solver::direct), fem::Solver::direct);
+  EXPECT_EQ(used(fem::Solver::iterative), fem::Solver::iterative);
   body.body.degree = 1;
-  EXPECT_EQ(fem::choose_solver(fem::make_grid(body.body), steel, 12, {}, 1e12).used, fem::Solver::direct);
+  EXPECT_EQ(used(fem::Solver::iterative), fem::Solver::direct) << "no level below";
 }
 
 /// One cell of degree 2 with edges 1, 1 and `length`, in a mesh that claims so many nodes.
@@ -200,17 +197,6 @@ fem::Grid stretched_cell(std::size_t n_nodes, double length) {
   }
   grid.volume_id.push_back(1);
   return grid;
-}
-
-TEST(SolverChoice, LargeBodiesOfCompactCellsAreIterated) {
-  const auto steel = fem_tests::steel;
-  const auto used = [&](double length) {
-    return fem::choose_solver(stretched_cell(200000, length), steel, 12, {}, 1e12).used;
-  };
-  EXPECT_EQ(used(2), fem::Solver::iterative);
-  EXPECT_EQ(used(1 / 2.0), fem::Solver::iterative);
-  EXPECT_EQ(used(40), fem::Solver::direct);
-  EXPECT_EQ(used(1 / 40.0), fem::Solver::direct);
 }
 
 TEST(SolverChoice, AspectIsThatOfTheLongestCell) {

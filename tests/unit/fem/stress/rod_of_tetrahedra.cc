@@ -14,12 +14,12 @@ namespace {
 using Component = fem::SurfaceResultant::Component;
 using Tensor = std::array<double, 6>;
 using fem::pi;
-constexpr double rod_radius = 0.025;
+constexpr double bar_radius = 0.025;
 
 struct RodOfTetrahedra : testing::Test {
   void SetUp() override {
     meshes::Shaft shaft;
-    shaft.segments = {{"rod", 0, 0.1, 2 * rod_radius, 0, true, 0, 0, ""}};
+    shaft.segments = {{"rod", 0, 0.1, 2 * bar_radius, 0, true, 0, 0, ""}};
     meshes::SolidControl control;
     control.size_m = 0.012;
     control.cells_per_circle = 12;
@@ -63,8 +63,8 @@ struct RodOfTetrahedra : testing::Test {
 // 12 parabolas for the circle are (pi/12)^4 / 30 = 1.6e-4 too small, which tension shows once, bending and
 // torsion twice; what comes on top is the discretisation of quadratic fields on curved cells.
 TEST_F(RodOfTetrahedra, HasTheClosedFormStress) {
-  EXPECT_NEAR(volume_m3 / (pi * rod_radius * rod_radius * 0.1), 1, 2e-4);
-  const double area = pi * rod_radius * rod_radius, i = area * rod_radius * rod_radius / 4;
+  EXPECT_NEAR(volume_m3 / (pi * bar_radius * bar_radius * 0.1), 1, 2e-4);
+  const double area = pi * bar_radius * bar_radius, i = area * bar_radius * bar_radius / 4;
   const double tension = error(0, [&](double, double) { return Tensor{0, 0, 1 / area, 0, 0, 0}; });
   const double bending = error(1, [&](double, double y) { return Tensor{0, 0, y / i, 0, 0, 0}; });
   const double torsion =

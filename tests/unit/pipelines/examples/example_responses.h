@@ -56,7 +56,6 @@ inline fem::UnitResponses example_responses() {
   r.residual = 1. / 3e12;
   r.n_dofs = 634047;
   r.factor_gigabytes = 2.7;
-  r.solver.gave_up = true;
   r.solver.reason = "stalled";
   r.solver.used_bytes = 3e9;
   r.solver.predicted_direct.bytes = 2e9;

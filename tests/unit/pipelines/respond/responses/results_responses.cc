@@ -57,7 +57,6 @@ TEST(ResponseFiles, ComeBackBitForBit) {
   EXPECT_EQ(read->residual, written.residual);
   EXPECT_EQ(read->n_dofs, written.n_dofs);
   EXPECT_EQ(read->factor_gigabytes, written.factor_gigabytes);
-  EXPECT_EQ(read->solver.gave_up, written.solver.gave_up);
   EXPECT_EQ(read->solver.reason, written.solver.reason);
   EXPECT_EQ(read->solver.used_bytes, written.solver.used_bytes);
   EXPECT_EQ(read->solver.predicted().bytes, written.solver.predicted().bytes);

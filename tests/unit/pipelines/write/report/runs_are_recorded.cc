@@ -119,8 +119,7 @@ TEST(RunRecord, WithoutAKeyOrWithTextThatIsNoneThereIsNone) {
 TEST(RunRecord, IsBelievedBesideItsOwnResultsAlone) {
   const Directory at;
   publish(at.path, record);
-  const auto zones = at / "shaft/zones.csv", page = at / "report.html", kept = at / "shaft/unit_responses.h5",
-             gave_up = at / "shaft/iteration_gave_up.txt";
+  const auto zones = at / "shaft/zones.csv", page = at / "report.html", kept = at / "shaft/unit_responses.h5";
   write_text_file(zones, "zonez");
   EXPECT_FALSE(is_there(at.path)) << "a changed result";
   write_text_file(zones, "zones");
@@ -143,11 +142,6 @@ TEST(RunRecord, IsBelievedBesideItsOwnResultsAlone) {
   EXPECT_THROW(is_there(at.path), OptionError) << "a run would replace it";
   fs::remove(kept);
   EXPECT_TRUE(is_there(at.path));
-  keep(gave_up, "of any run");
-  EXPECT_TRUE(is_there(at.path));
-  write_text_file(gave_up, "d" + bytes(gave_up));
-  EXPECT_FALSE(is_there(at.path)) << "damaged";
-  fs::remove(gave_up);
 
   fs::create_symlink("zones.csv", at / "shaft/mesh.msh");
   EXPECT_THROW(is_there(at.path), OptionError) << "a run would replace it";
