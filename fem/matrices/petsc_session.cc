@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <sstream>
 #include <type_traits>
+#include <utility>
 
 #include "fem/values/errors.h"
 
@@ -27,7 +28,8 @@ PetscErrorCode keep_first_message(MPI_Comm, int, const char*, const char*, Petsc
 
 }  // namespace
 
-PetscSession::PetscSession(const std::string& options) : lock_(petsc_in_use()) {
+PetscSession::PetscSession(std::string failure, const std::string& options)
+    : lock_(petsc_in_use()), failure_(std::move(failure)) {
   if (SlepcInitializeCalled == PETSC_FALSE) {
     PETSC_COMM_WORLD = MPI_COMM_SELF;
     check(SlepcInitializeNoArguments());
@@ -47,8 +49,8 @@ PetscSession::~PetscSession() {
 
 void PetscSession::check(PetscErrorCode code) const {
   if (code == 0) return;
-  if (code == PETSC_ERR_MEM) throw DoesNotFit("PETSc found no memory: " + message_);
-  throw SolveFailed("PETSc's error " + std::to_string(code) + ": " + message_);
+  if (code == PETSC_ERR_MEM) throw DoesNotFit(failure_ + ": PETSc found no memory, " + message_);
+  throw SolveFailed(failure_ + ": PETSc's error " + std::to_string(code) + ", " + message_);
 }
 
 std::string petsc_options_of_user(const std::string& prefix) {

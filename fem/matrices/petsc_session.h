@@ -14,8 +14,9 @@ namespace fem {
 /// of the process.
 class PetscSession {
 public:
+  /// @param failure  what its messages of failure begin with
   /// @param options  as on PETSc's command line
-  explicit PetscSession(const std::string& options = "");
+  explicit PetscSession(std::string failure, const std::string& options = "");
   ~PetscSession();
   PetscSession(const PetscSession&) = delete;
   PetscSession& operator=(const PetscSession&) = delete;
@@ -26,7 +27,7 @@ public:
 private:
   std::unique_lock<std::mutex> lock_;  // options and handlers are those of the process
   PetscOptions options_ = nullptr;
-  std::string message_;
+  std::string failure_, message_;
 };
 
 /// The options of the environment's PETSC_OPTIONS that begin with `-prefix`, with their values. Others are

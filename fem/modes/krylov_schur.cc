@@ -233,7 +233,7 @@ Eigenpairs joined(const Eigenpairs& a, const Eigenpairs& b) {
 }  // namespace
 
 Eigenpairs lowest_modes(const VibrationProblem& problem, int n_modes) {
-  const PetscSession petsc;
+  const PetscSession petsc("the natural frequencies do not converge");
   const auto n_rows = problem.n_rows;
   Eigenpairs found{Eigen::VectorXd(0), Eigen::MatrixXd(n_rows, 0)};
   for (unsigned i = 1; i <= most_searches; ++i) {

@@ -9,12 +9,12 @@
 namespace pipelines {
 namespace {
 
-std::optional<double> number_in(const summary::Json& json) {
+std::optional<double> number_or_none(const summary::Json& json) {
   return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
 }
 
 std::optional<double> seconds_in(const summary::Json& hours) {
-  const auto number = number_in(hours);
+  const auto number = number_or_none(hours);
   return number ? std::optional(*number * seconds_per_hour) : std::nullopt;
 }
 
@@ -83,7 +83,7 @@ std::string life_of_row(const summary::Json& row) {
 
 std::string safety_of_row(const summary::Json& row, const char* safety, const char* least) {
   const auto text = [&](const char* key) {
-    const auto number = row.contains(key) ? number_in(row.at(key)) : std::nullopt;
+    const auto number = row.contains(key) ? number_or_none(row.at(key)) : std::nullopt;
     return number ? fixed(*number, 2) : std::string("-");
   };
   const auto value = text(safety);
