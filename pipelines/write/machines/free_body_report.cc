@@ -78,12 +78,18 @@ FieldTable<FreeBodyRow> free_body_fields() {
        [](const auto& r) { return r.body.phi_rad[r.instant]; }},
       {"load", quantities::text, "its name", "load, from the eccentric's axis",
        [](const auto& r) { return r.load.name; }},
-      {"x", quantities::length, "where it acts", "x", [](const auto& r) { return r.load.at_m(0, r.instant); }},
-      {"y", quantities::length, "where it acts", "y", [](const auto& r) { return r.load.at_m(1, r.instant); }},
-      {"fx", quantities::force, "component", "fx", [](const auto& r) { return r.load.force_N(0, r.instant); }},
-      {"fy", quantities::force, "component", "fy", [](const auto& r) { return r.load.force_N(1, r.instant); }},
+      {"x", quantities::length, "where it acts", "x",
+       [](const auto& r) { return r.load.at_m(0, r.instant); }},
+      {"y", quantities::length, "where it acts", "y",
+       [](const auto& r) { return r.load.at_m(1, r.instant); }},
+      {"fx", quantities::force, "component", "fx",
+       [](const auto& r) { return r.load.force_N(0, r.instant); }},
+      {"fy", quantities::force, "component", "fy",
+       [](const auto& r) { return r.load.force_N(1, r.instant); }},
       Field("force", quantities::force, "its size, on the terminal alone", "force",
-            [](const auto& r) { return std::hypot(r.load.force_N(0, r.instant), r.load.force_N(1, r.instant)); })
+            [](const auto& r) {
+              return std::hypot(r.load.force_N(0, r.instant), r.load.force_N(1, r.instant));
+            })
           .without_csv(),
       {"couple", quantities::torque, "that acts beside the force",
        [](const auto& r) { return r.load.couple_N_m[r.instant]; }},
