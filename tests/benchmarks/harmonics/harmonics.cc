@@ -128,7 +128,7 @@ Run run(const Scene& scene, double tolerance, const fs::path& directory) {
   options.keep = false;
   options.accuracy.tolerance = tolerance;
   auto result = run_scene(scene, options, clock);
-  return {std::move(result.analyses.front()), result.scene.bodies.front().pressure_harmonics};
+  return {std::move(result.analyses.front()), result.loaded.scene.bodies.front().pressure_harmonics};
 }
 
 std::vector<std::array<double, 2>> peaks_of(const std::vector<PlaceStress>& places) {

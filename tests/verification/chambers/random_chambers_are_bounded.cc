@@ -84,7 +84,7 @@ TEST(RandomChambers, AreBoundedByTheirStatedErrors) {
     const auto stated = pipelines::governing_stress(analysis);
     n_by_halves += !analysis.responses.images.node.empty();
     auto scene = chambers::scene_around(chamber, directory.path);
-    describe_loads_better(scene, found.scene);
+    describe_loads_better(scene, found.loaded.scene);
     const auto finest = reference(std::move(scene), directory / "reference");
     const auto truth = pipelines::governing_stress(finest.analyses.at(0));
     const double error = stated.value_Pa / truth.value_Pa - 1;
