@@ -23,8 +23,8 @@ inline constexpr double factor_s_per_flop_alone = 6e-11, factor_s_per_flop_share
 inline constexpr double factor_s_per_entry = 2.3e-10, factor_s_per_response = 2.4e-7;  // for each load
 
 // The iterative solver: PETSc 3.18 with the same options on the mill's shaft and chamber, STEP parts and the
-// benchmark shaft, 61 k to 1.26 M unknowns, aspect up to 66; 2026-11-27, CPU seconds of one thread beside other
-// work, within a third. `tests/benchmarks/run solvers` prints them beside what it measures.
+// benchmark shaft, 61 k to 1.26 M unknowns, aspect up to 66; 2026-11-27, CPU seconds of one thread beside
+// other work, within a third. `tests/benchmarks/run solvers` prints them beside what it measures.
 inline constexpr double iteration_steps = 10, iteration_steps_per_aspect = 0.5;
 inline constexpr double iteration_s_per_dof = 3.3e-6;  // of each step and load
 inline constexpr double iteration_setup_s_per_dof = 3e-5, iteration_bytes_per_dof = 5700;

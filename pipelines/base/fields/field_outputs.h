@@ -54,8 +54,8 @@ void print_list(std::ostream& out, const FieldTable<Row>& fields, const std::vec
   if (!table.titles.empty()) print_rows(out, table.titles.front(), table);
 }
 
-/// Table for a README: a line of each field with column and unit in CSV, key of summary.json, title in tables for
-/// people, and meaning.
+/// Table for a README: a line of each field with column and unit in CSV, key of summary.json, title in tables
+/// for people, and meaning.
 std::string markdown_table(const std::vector<Field>& fields);
 
 }  // namespace pipelines

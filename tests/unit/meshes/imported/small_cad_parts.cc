@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "meshes/values/refused.h"
-#include "tests/unit/meshes/imported/cad_parts.h"
 #include "tests/unit/meshes/examples/imports.h"
 #include "tests/unit/meshes/examples/tetrahedra_file.h"
+#include "tests/unit/meshes/imported/cad_parts.h"
 
 namespace {
 
