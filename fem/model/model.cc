@@ -182,8 +182,8 @@ void Model::Impl::estimate_errors(std::vector<NaturalMode>& modes,
 
 namespace {
 
-/// On one rank, by the solver that the report names, or by the iteration if the factor does not fit into
-/// memory; the report then tells.
+/// On one rank, by the solver that the report names; by the other one if the factor does not fit into memory,
+/// or if the iteration does not end; the report then tells.
 /// @param half_of_body  that of a body that is solved by halves, or null; not looked for before it is needed
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
                const std::vector<std::vector<std::int32_t>>& colours, const PerCell<Lame>& elastic,
@@ -191,11 +191,15 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
                SolverChoice choice, const Progress& progress, SolverReport& report,
                DirectSolveOptions direct) {
   auto* const kept = direct.kept;
-  if (report.used == Solver::direct) try {
-      const auto* half = half_of_body();
-      return half != nullptr
-                 ? solve_by_halves(*half, elastic, loads, progress, std::move(direct))
-                 : solve_directly(grid, cells, colours, elastic, loads, progress, std::move(direct));
+  const auto factorise = [&](DirectSolveOptions options) {
+    const auto* half = half_of_body();
+    return half != nullptr
+               ? solve_by_halves(*half, elastic, loads, progress, std::move(options))
+               : solve_directly(grid, cells, colours, elastic, loads, progress, std::move(options));
+  };
+  const bool is_asked_for = report.used == Solver::iterative;
+  if (!is_asked_for) try {
+      return factorise(std::move(direct));
     } catch (const DoesNotFit&) {
       if (!may_turn_to_iteration(choice, report)) throw;
       turn_to_iteration(grid.n_unknowns(), free_memory(), report);
@@ -203,11 +207,20 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
   progress(0.05, "prepare levels");
   release_free_memory();
   choice.solver = Solver::iterative;
-  const auto levels = std::make_shared<PetscSolver>(
-      BodyOnRanks{MPI_COMM_SELF, grid, cells, elastic, std::vector<int>(grid.n_nodes, 0)}, loads.clamped,
-      choice);
-  if (kept != nullptr) *kept = levels;
-  return levels->solve_whole(loads, progress);
+  try {
+    const auto levels = std::make_shared<PetscSolver>(
+        BodyOnRanks{MPI_COMM_SELF, grid, cells, elastic, std::vector<int>(grid.n_nodes, 0)}, loads.clamped,
+        choice);
+    auto solution = levels->solve_whole(loads, progress);
+    if (kept != nullptr) *kept = levels;
+    return solution;
+  } catch (const DoesNotFit&) {
+    throw;
+  } catch (const SolveFailed& error) {
+    if (!is_asked_for) throw;
+    turn_to_factor(error.what(), report);
+  }
+  return factorise(std::move(direct));
 }
 
 }  // namespace

@@ -107,6 +107,11 @@ void turn_to_iteration(std::size_t n_dofs, double memory_bytes, SolverReport& re
   report.reason = "the factor does not fit into memory";
 }
 
+void turn_to_factor(const std::string& failure, SolverReport& report) {
+  report.used = Solver::direct;
+  report.reason += ", but " + failure.substr(0, failure.find(';'));
+}
+
 void refuse_large_factor(double factor_bytes, std::size_t n_dofs, double memory_bytes) {
   refuse("factor", factor_bytes, n_dofs, memory_bytes);
 }

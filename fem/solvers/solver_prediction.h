@@ -51,6 +51,10 @@ inline bool may_turn_to_iteration(const SolverChoice& choice, const SolverReport
 /// @throws DoesNotFit naming unknowns, bytes, memory and remedy if the iteration does not fit either
 void turn_to_iteration(std::size_t n_dofs, double memory_bytes, SolverReport& report);
 
+/// After the iteration did not end.
+/// @param failure  what it said; remedies behind a semicolon are not for the report
+void turn_to_factor(const std::string& failure, SolverReport& report);
+
 /// As choose_solver, with this machine's memory; where the factor may be used and the body is small enough,
 /// after an analysis of the matrix. Solves nothing.
 /// @param half  of a body that is solved by halves, or null; loads are taken to have parts of both parities
