@@ -61,9 +61,7 @@ struct Model::Impl {
 
   Lame elastic() const { return lame(body.material); }
 
-  BodyOfRanks on_ranks(const std::function<const MirroredHalf*()>& half_of_body) const {
-    return {communicator, grid, cells, elastic(), half_of_body};
-  }
+  BodyOnRanks on_ranks() const { return {communicator, grid, cells, elastic()}; }
 
   /// The half of a free body that is its own mirror image; null for others. Looked for once.
   const MirroredHalf* half() const {
@@ -187,9 +185,8 @@ namespace {
 /// @param half_of_body  that of a body that is solved by halves, or null; not looked for before it is needed
 Solution solve(const Grid& grid, const CellsOfNodes& cells,
                const std::vector<std::vector<std::int32_t>>& colours, const PerCell<Lame>& elastic,
-               const std::function<const MirroredHalf*()>& half_of_body, const BalancedLoads& loads,
-               SolverChoice choice, const Progress& progress, SolverReport& report,
-               DirectSolveOptions direct) {
+               const HalfOfBody& half_of_body, const BalancedLoads& loads, SolverChoice choice,
+               const Progress& progress, SolverReport& report, DirectSolveOptions direct) {
   auto* const kept = direct.kept;
   const auto factorise = [&](DirectSolveOptions options) {
     const auto* half = half_of_body();
@@ -208,9 +205,9 @@ Solution solve(const Grid& grid, const CellsOfNodes& cells,
   release_free_memory();
   choice.solver = Solver::iterative;
   try {
-    const auto levels = std::make_shared<PetscSolver>(
-        BodyOnRanks{MPI_COMM_SELF, grid, cells, elastic, std::vector<int>(grid.n_nodes, 0)}, loads.clamped,
-        choice);
+    const auto levels =
+        std::make_shared<PetscSolver>(BodyOnRanks{MPI_COMM_SELF, grid, cells, elastic},
+                                      std::vector<int>(grid.n_nodes, 0), loads.clamped, choice);
     auto solution = levels->solve_whole(loads, progress);
     if (kept != nullptr) *kept = levels;
     return solution;
@@ -249,7 +246,7 @@ UnitResponses Model::unit_responses(const std::vector<UnitLoad>& loads,
   if (n_ranks(impl_->communicator) > 1) {
     const SeenMesh mesh{seen, seen_cells, impl_->seen ? impl_->seen->split.copy : std::vector<std::int32_t>(),
                         impl_->seen ? impl_->seen->volumes : impl_->integrals};
-    respond_on_ranks(impl_->on_ranks(half_of_body), mesh,
+    respond_on_ranks(impl_->on_ranks(), half_of_body, mesh,
                      {loads, springs, clamped, impl_->body, impl_->integrals}, recovery == Recovery::patch,
                      report, choice, choice.keep_factor ? &impl_->factor : nullptr, responses);
     respond_on_sections(seen, planes, responses);
@@ -353,7 +350,7 @@ Eigen::MatrixXd Model::Impl::dual_solutions(const BalancedLoads& loads, const Mi
     own.force = part.rows_of(loads.force, 3);
     return own;
   };
-  const auto found = solve_on_ranks(on_ranks(half_of_body), of_part, choice, no_progress, report, &factor);
+  const auto found = solve_on_ranks(on_ranks(), half_of_body, of_part, choice, no_progress, report, &factor);
   Eigen::MatrixXd dual = Eigen::MatrixXd::Zero(loads.force.rows(), n_columns);
   const auto& node = found.part.share.part.node;
   for (std::size_t i = 0; i < node.size(); ++i)

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t loads_at_once = 4;
 
 /// Hanging nodes, rigid motion, units and springs: displacements of the unit loads at the nodes of a part.
-Eigen::MatrixXd finished(const BodyOfRanks& body, const SharedLoads& loads, const Eigen::RowVectorXd& scale,
+Eigen::MatrixXd finished(const BodyOnRanks& body, const SharedLoads& loads, const Eigen::RowVectorXd& scale,
                          PartSolution& found) {
   const auto& part = found.part.share.part;
   const auto complete = [&](Eigen::MatrixXd& sums) {
@@ -89,7 +89,7 @@ void take_report(const Solution& solution, std::size_t n_columns, UnitResponses&
   responses.solver.ranks = solution.ranks;
 }
 
-BalancedLoads loads_of_part(const BodyOfRanks& body, const SharedLoads& loads, const RankPart& part,
+BalancedLoads loads_of_part(const BodyOnRanks& body, const SharedLoads& loads, const RankPart& part,
                             Eigen::RowVectorXd& scale, std::vector<std::array<double, 6>>* resultants) {
   const auto& grid = body.grid;
   const auto n_loads = loads.unit_loads.size();
@@ -132,9 +132,10 @@ BalancedLoads loads_of_part(const BodyOfRanks& body, const SharedLoads& loads, c
   return own;
 }
 
-void respond_on_ranks(const BodyOfRanks& body, const SeenMesh& seen, const SharedLoads& loads,
-                      bool by_patches, const StepReport& progress, const SolverChoice& choice,
-                      std::shared_ptr<const FactorisedBody>* kept, UnitResponses& responses) {
+void respond_on_ranks(const BodyOnRanks& body, const HalfOfBody& half_of_body, const SeenMesh& seen,
+                      const SharedLoads& loads, bool by_patches, const StepReport& progress,
+                      const SolverChoice& choice, std::shared_ptr<const FactorisedBody>* kept,
+                      UnitResponses& responses) {
   release_free_memory();  // of meshing
   check_channels(loads.unit_loads);
   responses.resultants.resize(loads.unit_loads.size());
@@ -143,7 +144,7 @@ void respond_on_ranks(const BodyOfRanks& body, const SeenMesh& seen, const Share
   const MirroredHalf* half = nullptr;  // which tells of all
   {
     PartSolution found = solve_on_ranks(
-        body,
+        body, half_of_body,
         [&](const RankPart& part) { return loads_of_part(body, loads, part, scale, &responses.resultants); },
         choice, progress, responses.solver, kept);
     const auto& solution = found.solution;
@@ -151,7 +152,7 @@ void respond_on_ranks(const BodyOfRanks& body, const SeenMesh& seen, const Share
     if (solution.factor.n_dofs > 0) {
       responses.solver.reason += solution.is_even ? "; one half, of which the other is the mirror image"
                                                   : "; half by half, the body being its own mirror image";
-      if (solution.is_even) half = body.half();
+      if (solution.is_even) half = half_of_body();
     }
     rank_of_cell = found.part.rank_of_cell;
     responses.shared = share_rows(body.communicator, seen.grid, rank_of_cell);

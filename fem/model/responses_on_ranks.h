@@ -36,14 +36,15 @@ void take_report(const Solution& solution, std::size_t n_columns, UnitResponses&
 
 /// The loads of a part: balanced on the whole body, a few at a time, then its rows.
 /// @param resultants  filled, if given: of the unit loads as applied
-BalancedLoads loads_of_part(const BodyOfRanks& body, const SharedLoads& loads, const RankPart& part,
+BalancedLoads loads_of_part(const BodyOnRanks& body, const SharedLoads& loads, const RankPart& part,
                             Eigen::RowVectorXd& scale, std::vector<std::array<double, 6>>* resultants);
 
 /// Fills all of the responses but sections and rings. Called on all ranks.
 /// @param responses  with channels and the choice of the solver
 /// @param kept       as solve_on_ranks; may be null
-void respond_on_ranks(const BodyOfRanks& body, const SeenMesh& seen, const SharedLoads& loads,
-                      bool by_patches, const StepReport& progress, const SolverChoice& choice,
-                      std::shared_ptr<const FactorisedBody>* kept, UnitResponses& responses);
+void respond_on_ranks(const BodyOnRanks& body, const HalfOfBody& half_of_body, const SeenMesh& seen,
+                      const SharedLoads& loads, bool by_patches, const StepReport& progress,
+                      const SolverChoice& choice, std::shared_ptr<const FactorisedBody>* kept,
+                      UnitResponses& responses);
 
 }  // namespace fem

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <utility>
 
+#include "fem/common/deadline.h"
 #include "fem/common/parallel.h"
 #include "fem/loads/supports.h"
 #include "fem/matrices/petsc_session.h"
@@ -105,6 +107,15 @@ Eigen::RowVectorXd largest_entries(MPI_Comm communicator, const Eigen::MatrixXd&
   return largest;
 }
 
+/// Ends an iteration on all ranks once the time is up on one of them.
+/// @param is_up  a bool
+PetscErrorCode stop_in_time(KSP iteration, PetscInt, PetscReal, void* is_up) {
+  double n_late = seconds_to_deadline() <= 0 ? 1 : 0;
+  sum_over_ranks(PetscObjectComm(reinterpret_cast<PetscObject>(iteration)), &n_late, 1);
+  *static_cast<bool*>(is_up) = n_late > 0;
+  return n_late > 0 ? PETSC_ERR_USER : 0;
+}
+
 /// The rows of interpolation from the linear level, and how many vertices this rank has.
 CompressedRows interpolation_rows(const LinearLevel& level, const RowPlan& plan,
                                   const std::vector<std::int64_t>& clamped, PetscInt& n_own_vertices) {
@@ -139,11 +150,12 @@ CompressedRows interpolation_rows(const LinearLevel& level, const RowPlan& plan,
 }  // namespace
 
 struct PetscSolver::Impl {
-  Impl(const BodyOnRanks& of, const std::vector<std::int64_t>& held, const SolverChoice& with)
+  Impl(const BodyOnRanks& of, std::vector<int> rank_of_node, const std::vector<std::int64_t>& held,
+       const SolverChoice& with)
       : body(of),
         clamped(held),
         choice(with),
-        plan(of.grid, of.rank_of_node, this_rank(of.communicator), n_ranks(of.communicator)) {}
+        plan(of.grid, std::move(rank_of_node), this_rank(of.communicator), n_ranks(of.communicator)) {}
 
   const BodyOnRanks body;
   const std::vector<std::int64_t> clamped;
@@ -156,6 +168,7 @@ struct PetscSolver::Impl {
   PetscHandle<KSP, KSPDestroy> iteration{};
   double bytes = 0;         ///< of this rank
   double factor_bytes = 0;  ///< of this rank's part of a factor
+  bool is_time_up = false;  ///< the iteration stopped for it
 
   bool is_direct() const { return choice.solver == Solver::direct; }
   MPI_Comm communicator() const { return body.communicator; }
@@ -304,15 +317,16 @@ void PetscSolver::Impl::make_levels(const PetscSession& petsc) {
   petsc.check(PCMGGetSmoother(levels, 1, &of_level));
   petsc.check(KSPSetOperators(of_level, stiffness.object, stiffness.object));
   petsc.check(KSPSetFromOptions(*ksp));
+  petsc.check(KSPMonitorSet(*ksp, stop_in_time, &is_time_up, nullptr));
   petsc.check(KSPSetUp(*ksp));
   constexpr double incomplete_factor = 6;  // bytes for each entry of K: one triangle
   bytes += incomplete_factor * entries(petsc, stiffness.object) +
            12 * (entries(petsc, interpolation.object) + entries(petsc, coarse.object));
 }
 
-PetscSolver::PetscSolver(const BodyOnRanks& body, const std::vector<std::int64_t>& clamped,
-                         const SolverChoice& choice)
-    : impl_(std::make_unique<Impl>(body, clamped, choice)) {
+PetscSolver::PetscSolver(const BodyOnRanks& body, std::vector<int> rank_of_node,
+                         const std::vector<std::int64_t>& clamped, const SolverChoice& choice)
+    : impl_(std::make_unique<Impl>(body, std::move(rank_of_node), clamped, choice)) {
   const SerialBlas serial;
   const PetscSession petsc(failure, impl_->options());
   impl_->assemble(petsc);
@@ -351,8 +365,10 @@ Eigen::MatrixXd PetscSolver::Impl::iterate(const PetscSession& petsc, const Eige
   for (Eigen::Index k = 0; k < u.cols(); ++k) {
     progress(0.2 + 0.65 * double(k) / double(u.cols()), "iterate");
     petsc.check(KSPSetTolerances(iteration.object, 1 / any, residuals[k], any, choice.max_iterations));
-    petsc.check(KSPSolve(iteration.object, Column(petsc, communicator(), force.col(k).data(), u.rows()),
-                         Column(petsc, communicator(), u.col(k).data(), u.rows())));
+    const auto code = KSPSolve(iteration.object, Column(petsc, communicator(), force.col(k).data(), u.rows()),
+                               Column(petsc, communicator(), u.col(k).data(), u.rows()));
+    if (is_time_up) throw OutOfTime("the time is up");
+    petsc.check(code);
     KSPConvergedReason reason{};
     PetscInt steps = 0;
     petsc.check(KSPGetConvergedReason(iteration.object, &reason));

@@ -20,22 +20,23 @@
 
 namespace fem {
 
-/// The cells of a body, and the rank that has each of its nodes.
+/// A body whose mesh all ranks of the communicator have.
 struct BodyOnRanks {
   MPI_Comm communicator;
   const Grid& grid;
   const CellsOfNodes& cells;
   const PerCell<Lame> elastic;
-  const std::vector<int> rank_of_node;
 };
 
 /// All is called on all ranks, and fails on all of them.
 class PetscSolver : public FactorisedBody {
 public:
   /// Assembles K and prepares the factor (Solver::direct) or the two levels (Solver::iterative).
-  /// @param clamped  unknowns; none: a free body
+  /// @param rank_of_node  the rank that has each node
+  /// @param clamped       unknowns; none: a free body
   /// @throws SolveFailed if K is not positive definite or memory does not suffice
-  PetscSolver(const BodyOnRanks& body, const std::vector<std::int64_t>& clamped, const SolverChoice& choice);
+  PetscSolver(const BodyOnRanks& body, std::vector<int> rank_of_node,
+              const std::vector<std::int64_t>& clamped, const SolverChoice& choice);
   ~PetscSolver() override;
 
   /// The nodes whose rows this rank has, ascending; none of them hangs.
@@ -43,7 +44,8 @@ public:
 
   /// @param loads  forces at nodes()
   /// @return displacements there, and the bytes of this rank
-  /// @throws SolveFailed if the iteration does not end, or rounding reaches more than 1 % of displacements
+  /// @throws SolveFailed if the iteration does not end, or rounding reaches more than 1 % of displacements;
+  ///   OutOfTime once the time is up, which the iteration asks in each step
   Solution solve_rows(const BalancedLoads& loads, const StepReport& progress) const;
 
   /// The same of the whole body, with what each rank gives and gets.

@@ -7,7 +7,6 @@
 #include "fem/common/memory.h"
 #include "fem/ranks/ranks.h"
 #include "fem/ranks/row_exchange.h"
-#include "fem/solvers/petsc_solver.h"
 #include "fem/solvers/solver_prediction.h"
 #include "fem/values/errors.h"
 
@@ -68,8 +67,9 @@ Eigen::MatrixXd from_first(const Grid& grid, const RankPart& part, const Eigen::
 }
 
 /// On rank 0. Nothing if the factor does not fit.
-std::optional<Solution> factorise_halves(const BodyOfRanks& body, const RankPart& part,
-                                         const BalancedLoads& loads, const StepReport& progress,
+std::optional<Solution> factorise_halves(const BodyOnRanks& body, const MirroredHalf& half,
+                                         const RankPart& part, const BalancedLoads& loads,
+                                         const StepReport& progress,
                                          std::shared_ptr<const FactorisedBody>* kept) {
   auto of_whole = loads;
   of_whole.force = on_first(body.grid, part, loads.force, body.communicator);
@@ -79,7 +79,7 @@ std::optional<Solution> factorise_halves(const BodyOfRanks& body, const RankPart
     DirectSolveOptions options;
     options.kept = kept;
     try {
-      solution = solve_by_halves(*body.half(), body.elastic, of_whole, progress, std::move(options));
+      solution = solve_by_halves(half, body.elastic, of_whole, progress, std::move(options));
     } catch (const DoesNotFit&) {
       return;
     }
@@ -107,13 +107,11 @@ std::optional<Solution> factorise_halves(const BodyOfRanks& body, const RankPart
 }
 
 /// On all ranks.
-Solution solve_together(const BodyOfRanks& body, const RankPart& part, const BalancedLoads& loads,
+Solution solve_together(const BodyOnRanks& body, const RankPart& part, const BalancedLoads& loads,
                         const SolverChoice& choice, const StepReport& progress,
                         std::shared_ptr<const FactorisedBody>* kept) {
   progress(0.05, "assemble");
-  const auto solver = std::make_shared<PetscSolver>(
-      BodyOnRanks{body.communicator, body.grid, body.cells, body.elastic, part.rank_of_node}, loads.clamped,
-      choice);
+  const auto solver = std::make_shared<PetscSolver>(body, part.rank_of_node, loads.clamped, choice);
   const auto& node = part.share.part.node;
   const auto own = places_among(solver->nodes(), node);
   BalancedLoads of_rows;
@@ -147,7 +145,7 @@ Solution solve_together(const BodyOfRanks& body, const RankPart& part, const Bal
 
 }  // namespace
 
-PartSolution solve_on_ranks(const BodyOfRanks& body,
+PartSolution solve_on_ranks(const BodyOnRanks& body, const HalfOfBody& half,
                             const std::function<BalancedLoads(const RankPart&)>& loads, SolverChoice choice,
                             const StepReport& progress, SolverReport& report,
                             std::shared_ptr<const FactorisedBody>* kept) {
@@ -155,24 +153,29 @@ PartSolution solve_on_ranks(const BodyOfRanks& body,
       RankPart(body.grid, body.cells, body.elastic, this_rank(body.communicator), n_ranks(body.communicator)),
       {}};
   const auto of_part = loads(found.part);
-  if (report.used == Solver::direct) {
-    if (body.half() != nullptr)
-      if (auto solution = factorise_halves(body, found.part, of_part, progress, kept)) {
-        found.solution = std::move(*solution);
-        return found;
-      }
-    const bool may_turn = may_turn_to_iteration(choice, report);
-    try {
-      choice.solver = Solver::direct;
-      found.solution = solve_together(body, found.part, of_part, choice, progress, kept);
+  const auto solve_by = [&](Solver solver) {
+    choice.solver = solver;
+    found.solution = solve_together(body, found.part, of_part, choice, progress, kept);
+  };
+  if (report.used == Solver::iterative) try {
+      solve_by(Solver::iterative);
       return found;
-    } catch (const DoesNotFit&) {
-      if (!may_turn) throw;
-      turn_to_iteration(body.grid.n_unknowns(), memory_of_all_machines(body.communicator), report);
+    } catch (const FailedTogether& error) {
+      turn_to_factor(error.what(), report);
     }
+  if (half() != nullptr)
+    if (auto solution = factorise_halves(body, *half(), found.part, of_part, progress, kept)) {
+      found.solution = std::move(*solution);
+      return found;
+    }
+  const bool may_turn = may_turn_to_iteration(choice, report);
+  try {
+    solve_by(Solver::direct);
+  } catch (const DoesNotFit&) {
+    if (!may_turn) throw;
+    turn_to_iteration(body.grid.n_unknowns(), memory_of_all_machines(body.communicator), report);
+    solve_by(Solver::iterative);
   }
-  choice.solver = Solver::iterative;
-  found.solution = solve_together(body, found.part, of_part, choice, progress, kept);
   return found;
 }
 

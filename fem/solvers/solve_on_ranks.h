@@ -7,22 +7,16 @@
 #include <memory>
 
 #include "fem/loads/balanced_loads.h"
-#include "fem/operators/stiffness.h"
 #include "fem/operators/subdomain.h"
 #include "fem/solvers/direct_solve.h"
 #include "fem/solvers/mirrored_halves.h"
+#include "fem/solvers/petsc_solver.h"
 #include "fem/values/solver_choice.h"
 
 namespace fem {
 
-/// All ranks have the mesh.
-struct BodyOfRanks {
-  MPI_Comm communicator;
-  const Grid& grid;
-  const CellsOfNodes& cells;
-  const PerCell<Lame> elastic;
-  std::function<const MirroredHalf*()> half;  ///< of a body that is solved by halves, or null
-};
+/// The half of a body that is solved by halves, or null; looked for when it is asked.
+using HalfOfBody = std::function<const MirroredHalf*()>;
 
 /// Displacements at the nodes of a rank's part.
 struct PartSolution {
@@ -31,11 +25,12 @@ struct PartSolution {
 };
 
 /// By the solver that the report names, or by the next one that fits into memory: the factor of halves on
-/// rank 0, which has a third of the work or less; MUMPS' of the whole body on all ranks; the iteration.
+/// rank 0, which has a third of the work or less; MUMPS' of the whole body on all ranks; the iteration. Where
+/// an iteration that was asked for does not end, by the factor.
 /// Called on all ranks.
 /// @param loads  forces at the nodes of a part; their sizes are those of the body
 /// @param kept   if given, has the factor or the levels afterwards; halves on rank 0 alone
-PartSolution solve_on_ranks(const BodyOfRanks& body,
+PartSolution solve_on_ranks(const BodyOnRanks& body, const HalfOfBody& half,
                             const std::function<BalancedLoads(const RankPart&)>& loads, SolverChoice choice,
                             const StepReport& progress, SolverReport& report,
                             std::shared_ptr<const FactorisedBody>* kept);
