@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 #include "pipelines/judge/estimates/fineness.h"
 #include "pipelines/search/cheap_models/cheap_responses.h"
 #include "pipelines/search/loop/scene_run.h"

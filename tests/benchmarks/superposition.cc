@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "fem/common/memory.h"
+#include "fem/base/common/memory.h"
 #include "pipelines/superpose/envelope/nodal_cycles.h"
 #include "pipelines/superpose/kernels/batch_walk.h"
 #include "pipelines/superpose/kernels/superposition_kernel.h"

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/axisymmetric/axisymmetric_responses.h"
-#include "fem/beam/fillet_factors.h"
-#include "fem/values/constants.h"
+#include "fem/base/values/constants.h"
+#include "fem/models/axisymmetric/axisymmetric_responses.h"
+#include "fem/models/beam/fillet_factors.h"
 #include "tests/hard/hard_case.h"
 #include "tests/unit/fem/examples/meridian_tube.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"

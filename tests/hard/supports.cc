@@ -6,7 +6,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "fem/values/body_nodes.h"
+#include "fem/base/values/body_nodes.h"
 #include "tests/hard/hard_case.h"
 #include "tests/verification/fem/bodies/block_mesh.h"
 #include "tests/verification/fem/bodies/figures.h"

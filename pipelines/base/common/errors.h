@@ -1,6 +1,6 @@
 /// What goes wrong, by name. Users' mistakes end with exit code 2, meshes and solves that fail with 3;
 /// whatever has no name here, in kinetics/values/machine_refused.h, meshes/values/refused.h or
-/// fem/values/errors.h is a mistake of the program (failure.h).
+/// fem/base/values/errors.h is a mistake of the program (failure.h).
 #pragma once
 
 #include <stdexcept>

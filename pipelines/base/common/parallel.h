@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "fem/common/deadline.h"
+#include "fem/base/common/deadline.h"
 
 namespace pipelines {
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <string>
 
-#include "fem/common/memory.h"
+#include "fem/base/common/memory.h"
 #include "pipelines/base/common/errors.h"
 
 namespace pipelines {

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "fem/values/errors.h"
+#include "fem/base/values/errors.h"
 #include "kinetics/values/machine_refused.h"
 #include "meshes/values/refused.h"
 #include "pipelines/base/common/errors.h"

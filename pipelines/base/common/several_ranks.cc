@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "fem/ranks/ranks.h"
+#include "fem/mesh/ranks/ranks.h"
 
 namespace pipelines {
 

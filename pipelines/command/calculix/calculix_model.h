@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/loads/nodal_loads.h"
+#include "fem/equations/loads/nodal_loads.h"
 #include "pipelines/command/calculix/serendipity.h"
 
 namespace pipelines {

@@ -8,7 +8,7 @@
 #include <ostream>
 #include <utility>
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 #include "meshes/shaft_layout/shaft_checks.h"
 #include "pipelines/command/check/check_report.h"
 #include "pipelines/command/options/scene_options.h"

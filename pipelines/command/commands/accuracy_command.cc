@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/common/process_limits.h"
 #include "pipelines/base/disk/staging.h"

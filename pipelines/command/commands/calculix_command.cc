@@ -4,8 +4,8 @@
 #include <ostream>
 #include <vector>
 
-#include "fem/loads/nodal_loads.h"
-#include "fem/model/model.h"
+#include "fem/equations/loads/nodal_loads.h"
+#include "fem/models/solid/model.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/command/calculix/calculix_model.h"
 #include "pipelines/command/options/result_place.h"

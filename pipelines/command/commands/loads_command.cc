@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 #include "pipelines/base/files/atomic_file.h"
 #include "pipelines/command/calculix/calculix_cards.h"
 #include "pipelines/command/options/option_value.h"

@@ -13,9 +13,9 @@
 #include <thread>
 #include <vector>
 
-#include "fem/common/blas_kernels.h"
-#include "fem/model/model.h"
-#include "fem/ranks/ranks.h"
+#include "fem/base/common/blas_kernels.h"
+#include "fem/mesh/ranks/ranks.h"
+#include "fem/models/solid/model.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/common/failure.h"
 #include "pipelines/base/common/process_limits.h"

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <vector>
 
-#include "fem/values/body_nodes.h"
+#include "fem/base/values/body_nodes.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/common/process_limits.h"
 #include "pipelines/command/options/result_place.h"

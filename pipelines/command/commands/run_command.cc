@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "fem/model/model.h"
-#include "fem/ranks/ranks.h"
+#include "fem/mesh/ranks/ranks.h"
+#include "fem/models/solid/model.h"
 #include "pipelines/base/common/failure.h"
 #include "pipelines/base/common/process_limits.h"
 #include "pipelines/base/common/several_ranks.h"

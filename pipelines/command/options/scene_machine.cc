@@ -1,6 +1,6 @@
 #include "pipelines/command/options/scene_machine.h"
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 #include "pipelines/command/options/scene_options.h"
 #include "pipelines/loads/stage/load_stage.h"
 #include "pipelines/loads/stage/machine_masses.h"

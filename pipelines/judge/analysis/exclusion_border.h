@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/judge/analysis/judged.h"
 #include "pipelines/judge/estimates/place_stress.h"

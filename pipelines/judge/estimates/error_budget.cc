@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "fem/stress/cell_stress_at_node.h"
+#include "fem/stress/cells/cell_stress_at_node.h"
 #include "pipelines/judge/estimates/solved_pressure.h"
 #include "pipelines/judge/estimates/submodels.h"
 #include "pipelines/judge/estimates/tetrahedra_estimate.h"

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "fem/model/model.h"
-#include "fem/values/body.h"
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/body.h"
+#include "fem/base/values/unit_responses.h"
+#include "fem/models/solid/model.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/loads/channels/load_collector.h"
 

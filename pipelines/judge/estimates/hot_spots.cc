@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "fem/stress/surface_stress.h"
+#include "fem/stress/cells/surface_stress.h"
 #include "pipelines/base/names/nearest_name.h"
 
 namespace pipelines {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/judge/estimates/error_budget.h"
 #include "pipelines/loads/channels/channels.h"

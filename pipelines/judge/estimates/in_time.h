@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "fem/common/deadline.h"
+#include "fem/base/common/deadline.h"
 #include "pipelines/base/common/several_ranks.h"
 
 namespace pipelines {
@@ -13,8 +13,8 @@ namespace pipelines {
 /// Search::ended of a search that its limit of time has ended.
 inline const std::string time_is_up = "the time is up";
 
-/// Does work that asks for the time while it is at work (fem/common/deadline.h). Ranks that share a body have
-/// to do all of it: one that left it would leave the others waiting.
+/// Does work that asks for the time while it is at work (fem/base/common/deadline.h). Ranks that share a body
+/// have to do all of it: one that left it would leave the others waiting.
 /// @param seconds  that it may take; infinite: no limit
 /// @return false if the time was up before the work had ended
 /// @throws anything else that the work throws

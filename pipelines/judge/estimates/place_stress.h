@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/superpose/envelope/superposition.h"
 #include "pipelines/superpose/envelope/zones.h"

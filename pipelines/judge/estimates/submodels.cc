@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/submodel/submodel.h"
+#include "fem/refine/submodel/submodel.h"
 
 namespace pipelines {
 namespace {

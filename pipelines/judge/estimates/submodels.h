@@ -1,10 +1,10 @@
-/// Submodels around the places that may govern (fem/submodel/submodel.h): what the mesh of the whole body
-/// costs there, and stress at weld toes on cells a quarter as large.
+/// Submodels around the places that may govern (fem/refine/submodel/submodel.h): what the mesh of the whole
+/// body costs there, and stress at weld toes on cells a quarter as large.
 #pragma once
 
 #include <vector>
 
-#include "fem/submodel/submodel.h"
+#include "fem/refine/submodel/submodel.h"
 #include "pipelines/judge/estimates/error_budget.h"
 #include "pipelines/judge/estimates/hot_spots.h"
 

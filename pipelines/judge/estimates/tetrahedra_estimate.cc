@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/stress/tetrahedra_error.h"
+#include "fem/stress/cells/tetrahedra_error.h"
 
 namespace pipelines {
 

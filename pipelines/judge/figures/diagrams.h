@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "fem/values/body.h"
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/body.h"
+#include "fem/base/values/unit_responses.h"
 #include "meshes/shaft_layout/shaft_geometry.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/loads/channels/load_collector.h"

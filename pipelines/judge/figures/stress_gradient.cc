@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "fem/values/vtk_order.h"
+#include "fem/base/values/vtk_order.h"
 
 namespace pipelines {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 
 namespace pipelines {
 

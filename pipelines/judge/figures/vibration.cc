@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 #include "kinetics/series/harmonics.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/common/several_ranks.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/values/body.h"
+#include "fem/base/values/body.h"
 #include "kinetics/values/load_history.h"
 #include "pipelines/loads/channels/channels.h"
 #include "pipelines/loads/stage/body_mesh.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "pipelines/loads/channels/channels.h"
 #include "pipelines/superpose/envelope/stress_cycle.h"
 #include "pipelines/superpose/envelope/stress_shares.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/beam/fillet_factors.h"
+#include "fem/models/beam/fillet_factors.h"
 #include "pipelines/base/common/constants.h"
 
 namespace pipelines {

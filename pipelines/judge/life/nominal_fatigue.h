@@ -39,7 +39,7 @@ struct LocalAmplitude {
 DinLoad nominal_load(const SectionResult& section);
 
 /// Shape factors that make the local stress amplitude the program's own: published fits
-/// (fem/beam/fillet_factors.h) share it out among tension, bending and torsion.
+/// (fem/models/beam/fillet_factors.h) share it out among tension, bending and torsion.
 /// @param local_Pa    amplitude of von Mises stress in the fillet, >= 0
 /// @param nominal_Pa  amplitudes
 DinTriple own_shape_factor(const DinTriple& published, const DinTriple& nominal_Pa, double local_Pa);

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "fem/common/deadline.h"
-#include "fem/submodel/submodel.h"
+#include "fem/base/common/deadline.h"
+#include "fem/refine/submodel/submodel.h"
 #include "pipelines/base/common/constants.h"
 #include "pipelines/judge/analysis/exclusion_border.h"
 #include "pipelines/judge/analysis/governing_stress.h"
@@ -45,8 +45,8 @@ double for_want_of_cells(const Responded& analysis, int cells) {
 /// Of shoulders of blocks: cells that touch the edge disturb those beside them; solids were 17 % too high
 /// with one cell, 5.5 % with 2.5, 1.2 % with 5, while the changes from mesh to mesh told of a third. Of
 /// tetrahedra: within one cell of the edge the stress is as steep as the interpolant of r^0.54, 34 % too
-/// high, so that a quarter of it is not there (tests/unit/fem/recovery/sharp_edges_have_two_sides.cc); from
-/// one cell on it falls as beside blocks, 3 to 4 % with two (tests/verification/sharp_edges).
+/// high, so that a quarter of it is not there (tests/unit/fem/stress/recovery/sharp_edges_have_two_sides.cc);
+/// from one cell on it falls as beside blocks, 3 to 4 % with two (tests/verification/sharp_edges).
 double for_want_of_cells_to_border(double cells, bool of_tetrahedra) {
   constexpr double order = 1.25, within_first_tetrahedron = 0.25, of_one_tetrahedron = 0.12,
                    of_one_block = 0.2;

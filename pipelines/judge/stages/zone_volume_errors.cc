@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
-#include "fem/stress/cell_stress_at_node.h"
-#include "fem/stress/region_volume.h"
-#include "fem/values/vtk_order.h"
+#include "fem/base/values/vtk_order.h"
+#include "fem/stress/cells/cell_stress_at_node.h"
+#include "fem/stress/cells/region_volume.h"
 #include "pipelines/judge/analysis/governing_stress.h"
 #include "pipelines/judge/stages/place_errors.h"
 #include "pipelines/superpose/envelope/disjoint_sets.h"

@@ -23,7 +23,7 @@ std::vector<double> envelope_errors_Pa(const Judged& analysis);
 /// largest, none of a zone whose peak may be below the level in the smallest, which is joined node by node
 /// where zones join across a whole cell. To this come one and a half times the differences of
 /// the zone's cells between a stress that runs straight between nodes, and one that is curved
-/// (fem/stress/region_volume.h). A beam's zones have no volume, and no error.
+/// (fem/stress/cells/region_volume.h). A beam's zones have no volume, and no error.
 void estimate_volume_errors(Judged& analysis);
 
 }  // namespace pipelines

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "fem/values/body.h"
-#include "fem/values/unit_load.h"
+#include "fem/base/values/body.h"
+#include "fem/base/values/unit_load.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/loads/channels/channels.h"
 #include "pipelines/scene/values/body_options.h"

@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 
 namespace pipelines {
 

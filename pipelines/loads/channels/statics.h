@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "fem/values/unit_load.h"
+#include "fem/base/values/unit_load.h"
 #include "meshes/shaft_layout/shaft_geometry.h"
 
 namespace pipelines {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 #include "kinetics/vibratory_mill.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/loads/channels/load_collector.h"

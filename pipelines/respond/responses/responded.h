@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/loads/stage/body_loads.h"
 #include "pipelines/scene/values/method.h"

@@ -10,8 +10,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "fem/ranks/ranks.h"
-#include "fem/values/cell_shares.h"
+#include "fem/base/values/cell_shares.h"
+#include "fem/mesh/ranks/ranks.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/common/several_ranks.h"
 #include "pipelines/base/files/atomic_file.h"

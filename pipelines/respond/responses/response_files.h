@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 
 namespace pipelines {
 

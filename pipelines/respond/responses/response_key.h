@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "fem/values/body.h"
-#include "fem/values/solver_choice.h"
-#include "fem/values/unit_load.h"
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/body.h"
+#include "fem/base/values/solver_choice.h"
+#include "fem/base/values/unit_load.h"
+#include "fem/base/values/unit_responses.h"
 
 namespace pipelines {
 

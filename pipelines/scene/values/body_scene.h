@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "fem/values/body.h"
-#include "fem/values/solver_choice.h"
+#include "fem/base/values/body.h"
+#include "fem/base/values/solver_choice.h"
 #include "meshes/chamber/chamber_geometry.h"
 #include "meshes/imported/import.h"
 #include "meshes/keyed_shaft/keyway.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "fem/axisymmetric/axisymmetric_responses.h"
+#include "fem/models/axisymmetric/axisymmetric_responses.h"
 #include "meshes/shaft/half_section.h"
 #include "meshes/shaft/shaft_description.h"
 #include "meshes/values/refused.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "fem/axisymmetric/meridian_body.h"
+#include "fem/models/axisymmetric/meridian_body.h"
 #include "pipelines/loads/stage/body_mesh.h"
 #include "pipelines/scene/values/body_scene.h"
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "fem/axisymmetric/axisymmetric_responses.h"
+#include "fem/models/axisymmetric/axisymmetric_responses.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/judge/analysis/exclusion_border.h"
 #include "pipelines/respond/responses/respond.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/axisymmetric/meridian_body.h"
+#include "fem/models/axisymmetric/meridian_body.h"
 #include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {

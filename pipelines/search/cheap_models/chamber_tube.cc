@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "fem/beam/plated_tube.h"
+#include "fem/models/beam/plated_tube.h"
 #include "meshes/chamber/chamber_layout.h"
 
 namespace pipelines {

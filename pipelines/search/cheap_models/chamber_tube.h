@@ -1,11 +1,11 @@
 /// The cheapest model of a chamber: hot-spot stresses at the weld toes of its tube, taken as a thin shell
-/// that webs and lugs load as rigid plates (fem/beam/plated_tube.h).
+/// that webs and lugs load as rigid plates (fem/models/beam/plated_tube.h).
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "pipelines/loads/stage/body_mesh.h"
 
 namespace pipelines {

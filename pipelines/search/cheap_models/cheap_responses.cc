@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
-#include "fem/axisymmetric/axisymmetric_responses.h"
-#include "fem/beam/beam_responses.h"
-#include "fem/beam/near_loads.h"
+#include "fem/models/axisymmetric/axisymmetric_responses.h"
+#include "fem/models/beam/beam_responses.h"
+#include "fem/models/beam/near_loads.h"
 #include "pipelines/base/common/constants.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
 

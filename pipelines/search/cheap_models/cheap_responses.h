@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "fem/beam/beam_shaft.h"
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
+#include "fem/models/beam/beam_shaft.h"
 #include "pipelines/judge/estimates/error_budget.h"
 #include "pipelines/loads/channels/load_collector.h"
 #include "pipelines/scene/values/body_scene.h"
@@ -16,8 +16,8 @@ namespace pipelines {
 /// The shaft as a beam; nothing for other bodies, nor with keyways.
 std::optional<fem::BeamShaft> beam_shaft(const BodyScene& body, const meshes::BodyMesh& mesh);
 
-/// Beam theory with stress concentration factors (fem/beam/beam_responses.h). Locate its nodes with the
-/// features, ports and sharp edges of `mesh`.
+/// Beam theory with stress concentration factors (fem/models/beam/beam_responses.h). Locate its nodes with
+/// the features, ports and sharp edges of `mesh`.
 /// @param mesh  of the same body: its boundary ids
 /// @return nothing if the body is no shaft, or has keyways
 /// @throws std::invalid_argument as fem::beam_responses
@@ -51,8 +51,8 @@ struct AxisymmetricModel {
   double model_error = 0;  ///< relative, of a peak at a fillet: fem::eccentricity_error
 };
 
-/// Harmonics around the axis (fem/axisymmetric/axisymmetric_responses.h) on the half section of the solid's
-/// blocks, for the same features, ports and sharp edges.
+/// Harmonics around the axis (fem/models/axisymmetric/axisymmetric_responses.h) on the half section of the
+/// solid's blocks, for the same features, ports and sharp edges.
 /// @return nothing if the body is no shaft, or has keyways
 /// @throws as fem::axisymmetric_responses
 std::optional<AxisymmetricModel> axisymmetric_responses(const BodyScene& body, const meshes::BodyMesh& mesh,

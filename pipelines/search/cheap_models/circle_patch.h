@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 
 namespace pipelines {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/judge/estimates/place_stress.h"
 #include "pipelines/loads/channels/channels.h"

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/loads/channels/load_collector.h"
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fem/beam/beam_responses.h"
+#include "fem/models/beam/beam_responses.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/loads/channels/closure.h"
 #include "pipelines/scene/reader/why_not.h"

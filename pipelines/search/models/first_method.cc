@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "fem/beam/beam_responses.h"
+#include "fem/models/beam/beam_responses.h"
 #include "pipelines/scene/reader/why_not.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
 #include "pipelines/search/cheap_models/cheap_responses.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fem/beam/beam_responses.h"
+#include "fem/models/beam/beam_responses.h"
 #include "pipelines/base/common/constants.h"
 #include "pipelines/judge/stages/place_errors.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"

@@ -5,8 +5,8 @@
 #include <new>
 #include <utility>
 
-#include "fem/common/deadline.h"
-#include "fem/values/cost_constants.h"
+#include "fem/base/common/deadline.h"
+#include "fem/base/values/cost_constants.h"
 #include "pipelines/base/common/refusal_of.h"
 #include "pipelines/judge/analysis/load_patch.h"
 #include "pipelines/judge/estimates/fineness.h"

@@ -5,7 +5,7 @@
 #include <map>
 #include <numeric>
 
-#include "fem/values/errors.h"
+#include "fem/base/values/errors.h"
 #include "pipelines/base/names/name_lists.h"
 #include "pipelines/judge/analysis/exclusion_border.h"
 #include "pipelines/judge/estimates/error_budget.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "pipelines/judge/analysis/judged.h"
 
 namespace pipelines {

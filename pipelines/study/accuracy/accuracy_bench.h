@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "fem/common/memory.h"
+#include "fem/base/common/memory.h"
 #include "pipelines/base/common/refusal_of.h"
 #include "pipelines/judge/estimates/in_time.h"
 #include "pipelines/search/loop/scene_run.h"

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <optional>
 
-#include "fem/beam/beam_responses.h"
-#include "fem/beam/plated_tube.h"
+#include "fem/models/beam/beam_responses.h"
+#include "fem/models/beam/plated_tube.h"
 #include "pipelines/judge/estimates/fineness.h"
 #include "pipelines/scene/reader/why_not.h"
 #include "pipelines/search/cheap_models/chamber_tube.h"

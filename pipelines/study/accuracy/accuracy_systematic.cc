@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/stress/surface_stress.h"
+#include "fem/stress/cells/surface_stress.h"
 #include "pipelines/judge/estimates/fineness.h"
 #include "pipelines/study/accuracy/accuracy_models.h"
 #include "pipelines/study/accuracy/systematic_meshes.h"

@@ -7,8 +7,8 @@
 #include <optional>
 #include <ostream>
 
-#include "fem/solvers/cost_prediction.h"
-#include "fem/values/cost_constants.h"
+#include "fem/base/values/cost_constants.h"
+#include "fem/solve/solvers/cost_prediction.h"
 #include "pipelines/base/common/refusal_of.h"
 #include "pipelines/judge/analysis/crest_elsewhere.h"
 #include "pipelines/judge/estimates/fineness.h"

@@ -1,12 +1,12 @@
 /// What a run will take before anything is solved, model by model, in seconds of the machine that the
-/// constants were measured on (fem/values/cost_constants.h): within a factor of three on others.
+/// constants were measured on (fem/base/values/cost_constants.h): within a factor of three on others.
 #pragma once
 
 #include <iosfwd>
 #include <string>
 #include <vector>
 
-#include "fem/values/solver_choice.h"
+#include "fem/base/values/solver_choice.h"
 #include "pipelines/loads/stage/body_loads.h"
 #include "pipelines/loads/stage/body_mesh.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "pipelines/scene/values/body_scene.h"
 
 namespace pipelines {

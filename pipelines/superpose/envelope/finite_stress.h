@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "pipelines/superpose/envelope/superposition.h"
 
 namespace pipelines {

@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "pipelines/loads/channels/channels.h"
 #include "pipelines/superpose/envelope/superposition.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "fem/ranks/ranks.h"
+#include "fem/mesh/ranks/ranks.h"
 #include "pipelines/base/common/parallel.h"
 #include "pipelines/superpose/kernels/batch_walk.h"
 #include "pipelines/superpose/kernels/lode_cosine.h"

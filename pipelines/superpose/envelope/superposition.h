@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "pipelines/loads/channels/channels.h"
 
 namespace pipelines {

@@ -6,7 +6,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "fem/stress/region_volume.h"
+#include "fem/stress/cells/region_volume.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/superpose/envelope/disjoint_sets.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/superpose/envelope/superposition.h"
 
@@ -94,8 +94,8 @@ struct Zones {
 std::size_t peak_node(const std::vector<double>& value, const NodePlaces& places);
 
 /// Nodes at or above the level, connected when they share a cell. The volume is that of the region where the
-/// envelope, linear between neighbouring nodes, is above the level (fem/stress/region_volume.h). Excluded
-/// nodes and their share of the cells belong to no zone.
+/// envelope, linear between neighbouring nodes, is above the level (fem/stress/cells/region_volume.h).
+/// Excluded nodes and their share of the cells belong to no zone.
 Zones find_zones(const fem::Nodes& nodes, const NodalMaximum& envelope, const NodePlaces& places,
                  double level_Pa, double yield_strength_Pa);
 

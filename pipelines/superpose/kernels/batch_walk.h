@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "pipelines/superpose/kernels/superposition_kernel.h"
 #include "pipelines/superpose/kernels/walked_factors.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 
 namespace pipelines {
 

@@ -6,7 +6,7 @@
 #include <deque>
 #include <limits>
 
-#include "fem/values/cell_shares.h"
+#include "fem/base/values/cell_shares.h"
 #include "pipelines/base/common/constants.h"
 #include "pipelines/base/common/parallel.h"
 #include "pipelines/base/common/several_ranks.h"

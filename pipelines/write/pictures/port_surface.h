@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/unit_responses.h"
 #include "meshes/values/body_mesh.h"
 
 namespace pipelines {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-#include "fem/matrices/symmetric_matrix.h"
+#include "fem/equations/matrices/symmetric_matrix.h"
 
 namespace measure {
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 #include "tests/benchmarks/calculix/calculix_work.h"
 #include "tests/benchmarks/calculix/child_process.h"
 #include "tests/benchmarks/solvers/benchmark_shaft.h"

@@ -7,14 +7,14 @@
 #include <cmath>
 #include <cstdio>
 
-#include "fem/loads/supports.h"
-#include "fem/loads/surface_loads.h"
-#include "fem/matrices/cholmod_factor.h"
-#include "fem/mesh/rigid_modes.h"
-#include "fem/model/model.h"
-#include "fem/operators/stiffness.h"
-#include "fem/solvers/direct_solve.h"
-#include "fem/triangulation/body_grid.h"
+#include "fem/equations/loads/supports.h"
+#include "fem/equations/loads/surface_loads.h"
+#include "fem/equations/matrices/cholmod_factor.h"
+#include "fem/equations/operators/stiffness.h"
+#include "fem/mesh/grid/rigid_modes.h"
+#include "fem/mesh/triangulation/body_grid.h"
+#include "fem/models/solid/model.h"
+#include "fem/solve/solvers/direct_solve.h"
 #include "pipelines/command/calculix/calculix_model.h"
 #include "pipelines/loads/stage/body_mesh.h"
 #include "pipelines/respond/responses/response_files.h"

@@ -15,7 +15,7 @@
 #include <regex>
 #include <vector>
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 #include "meshes/values/refused.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/judge/stages/shaft_torsion.h"

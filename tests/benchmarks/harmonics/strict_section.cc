@@ -4,7 +4,7 @@
 #include <cmath>
 #include <complex>
 
-#include "fem/axisymmetric/axisymmetric_responses.h"
+#include "fem/models/axisymmetric/axisymmetric_responses.h"
 #include "pipelines/base/common/constants.h"
 #include "pipelines/judge/analysis/exclusion_border.h"
 #include "pipelines/judge/figures/diagrams.h"

@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 #include "meshes/values/refused.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/scene/whole/scene.h"

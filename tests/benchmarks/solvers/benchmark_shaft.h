@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fem/values/unit_load.h"
+#include "fem/base/values/unit_load.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/scene/whole/scene.h"
 

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "fem/common/memory.h"
-#include "fem/model/model.h"
+#include "fem/base/common/memory.h"
+#include "fem/models/solid/model.h"
 #include "pipelines/loads/stage/body_mesh.h"
 #include "pipelines/scene/whole/scene.h"
 #include "tests/benchmarks/solvers/process.h"

@@ -11,8 +11,8 @@
 #include <exception>
 #include <filesystem>
 
-#include "fem/model/model.h"
-#include "fem/ranks/ranks.h"
+#include "fem/mesh/ranks/ranks.h"
+#include "fem/models/solid/model.h"
 #include "pipelines/loads/stage/body_mesh.h"
 #include "pipelines/respond/responses/response_files.h"
 #include "pipelines/scene/whole/scene.h"

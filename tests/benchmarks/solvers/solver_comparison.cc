@@ -4,14 +4,14 @@
 #include <cstdio>
 #include <utility>
 
-#include "fem/common/memory.h"
-#include "fem/loads/surface_loads.h"
-#include "fem/mesh/hanging_nodes.h"
-#include "fem/mesh/rigid_modes.h"
-#include "fem/solvers/direct_solve.h"
-#include "fem/solvers/petsc_solver.h"
-#include "fem/solvers/solver_prediction.h"
-#include "fem/triangulation/body_grid.h"
+#include "fem/base/common/memory.h"
+#include "fem/equations/loads/surface_loads.h"
+#include "fem/mesh/grid/hanging_nodes.h"
+#include "fem/mesh/grid/rigid_modes.h"
+#include "fem/mesh/triangulation/body_grid.h"
+#include "fem/solve/solvers/direct_solve.h"
+#include "fem/solve/solvers/petsc_solver.h"
+#include "fem/solve/solvers/solver_prediction.h"
 #include "tests/benchmarks/solvers/process.h"
 
 namespace measure {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "fem/values/body.h"
-#include "fem/values/solver_choice.h"
-#include "fem/values/unit_load.h"
+#include "fem/base/values/body.h"
+#include "fem/base/values/solver_choice.h"
+#include "fem/base/values/unit_load.h"
 
 namespace measure {
 

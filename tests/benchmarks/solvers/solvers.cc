@@ -14,7 +14,7 @@
 #include <filesystem>
 #include <string>
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 #include "pipelines/loads/stage/body_mesh.h"
 #include "pipelines/scene/whole/scene.h"
 #include "pipelines/search/loop/scene_run.h"

@@ -266,7 +266,8 @@ TEST(ShaftTorsion, OfThePeelersShaft) {
               0.05 * forced.at("working_shaft_1.torque")[0]);
   EXPECT_LT(e["largest_difference"]["value"].get<double>(), 1e-3 * e["torque"]["largest"].get<double>());
   // Peterson, chart 3.12, d 24, D 25, r 0.4: C1 1.687, C2 -1.947, C3 2.034, C4 -0.762 with 2 h / D = 0.04;
-  // the fit lies within 3 % of the elastic solution (fem/beam/fillet_factors.h), and the field is known to 2
+  // the fit lies within 3 % of the elastic solution (fem/models/beam/fillet_factors.h), and the field is
+  // known to 2
   // %.
   const double peterson = 1.687 - 1.947 * 0.04 + 2.034 * 0.0016 - 0.762 * 0.000064;
   for (const char* name : {"working_shaft_1", "working_shaft_2"}) {

@@ -2,8 +2,8 @@
 
 #include <iostream>
 
-#include "fem/model/model.h"
-#include "fem/ranks/ranks.h"
+#include "fem/mesh/ranks/ranks.h"
+#include "fem/models/solid/model.h"
 
 namespace {
 

@@ -1,12 +1,12 @@
 // A rank recovers the stress of its nodes on a part of the mesh, and takes the same steps as on the whole.
 #include <gtest/gtest.h>
 
-#include "fem/mesh/hanging_nodes.h"
-#include "fem/operators/subdomain.h"
-#include "fem/ranks/deal_out_cells.h"
-#include "fem/ranks/ranks.h"
-#include "fem/recovery/recovery_on_ranks.h"
-#include "fem/triangulation/body_grid.h"
+#include "fem/equations/operators/subdomain.h"
+#include "fem/mesh/grid/hanging_nodes.h"
+#include "fem/mesh/ranks/deal_out_cells.h"
+#include "fem/mesh/ranks/ranks.h"
+#include "fem/mesh/triangulation/body_grid.h"
+#include "fem/stress/recovery/recovery_on_ranks.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 #include "tests/unit/fem/examples/tetrahedra.h"
 

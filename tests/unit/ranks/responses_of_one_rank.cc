@@ -6,13 +6,13 @@
 #include <cmath>
 #include <set>
 
-#include "fem/common/deadline.h"
-#include "fem/model/model.h"
-#include "fem/operators/subdomain.h"
-#include "fem/ranks/deal_out_cells.h"
-#include "fem/ranks/ranks.h"
-#include "fem/solvers/petsc_solver.h"
-#include "fem/triangulation/body_grid.h"
+#include "fem/base/common/deadline.h"
+#include "fem/equations/operators/subdomain.h"
+#include "fem/mesh/ranks/deal_out_cells.h"
+#include "fem/mesh/ranks/ranks.h"
+#include "fem/mesh/triangulation/body_grid.h"
+#include "fem/models/solid/model.h"
+#include "fem/solve/solvers/petsc_solver.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 #include "tests/unit/fem/examples/tetrahedra.h"
 

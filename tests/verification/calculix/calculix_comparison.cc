@@ -5,8 +5,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "fem/stress/cell_stress_at_node.h"
-#include "fem/stress/region_volume.h"
+#include "fem/stress/cells/cell_stress_at_node.h"
+#include "fem/stress/cells/region_volume.h"
 #include "pipelines/command/calculix/calculix_model.h"
 #include "pipelines/loads/channels/rigid_part.h"
 #include "pipelines/superpose/envelope/superposition.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fem/loads/nodal_loads.h"
+#include "fem/equations/loads/nodal_loads.h"
 #include "tests/verification/calculix/calculix_results.h"
 
 namespace pipelines {

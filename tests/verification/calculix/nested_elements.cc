@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "fem/values/vtk_order.h"
+#include "fem/base/values/vtk_order.h"
 #include "pipelines/command/calculix/calculix_model.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 #include "pipelines/command/calculix/calculix_model.h"
 #include "pipelines/loads/stage/body_mesh.h"
 #include "tests/benchmarks/solvers/benchmark_shaft.h"

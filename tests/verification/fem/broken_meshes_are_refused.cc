@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fem/values/body_nodes.h"
+#include "fem/base/values/body_nodes.h"
 #include "tests/unit/fem/examples/tetrahedra.h"
 #include "tests/verification/fem/bodies/block_mesh.h"
 #include "tests/verification/fem/bodies/figures.h"

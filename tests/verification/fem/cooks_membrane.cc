@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "fem/loads/surface_loads.h"
-#include "fem/triangulation/body_grid.h"
+#include "fem/equations/loads/surface_loads.h"
+#include "fem/mesh/triangulation/body_grid.h"
 #include "tests/verification/fem/bodies/block_mesh.h"
 #include "tests/verification/fem/bodies/figures.h"
 

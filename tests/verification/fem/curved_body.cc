@@ -6,9 +6,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "fem/loads/clamps.h"
-#include "fem/matrices/cholmod_factor.h"
-#include "fem/triangulation/body_grid.h"
+#include "fem/equations/loads/clamps.h"
+#include "fem/equations/matrices/cholmod_factor.h"
+#include "fem/mesh/triangulation/body_grid.h"
 #include "tests/verification/fem/bodies/block_mesh.h"
 #include "tests/verification/fem/bodies/field_errors.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fem/triangulation/body_grid.h"
+#include "fem/mesh/triangulation/body_grid.h"
 #include "tests/verification/fem/bodies/plane_strain_cylinder.h"
 
 namespace {

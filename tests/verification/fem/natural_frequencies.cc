@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "fem/values/body_nodes.h"
+#include "fem/base/values/body_nodes.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 #include "tests/verification/fem/bodies/block_mesh.h"
 #include "tests/verification/fem/bodies/figures.h"

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 #include "tests/unit/fem/examples/shaft_bodies.h"
 #include "tests/verification/fem/bodies/figures.h"
 

@@ -11,8 +11,8 @@
 #include <numeric>
 #include <random>
 
-#include "fem/loads/nodal_loads.h"
-#include "fem/stress/surface_stress.h"
+#include "fem/equations/loads/nodal_loads.h"
+#include "fem/stress/cells/surface_stress.h"
 #include "pipelines/command/calculix/calculix_model.h"
 #include "pipelines/judge/analysis/exclusion_border.h"
 #include "pipelines/judge/analysis/governing_stress.h"

@@ -1,3 +1,3 @@
 #include "pipelines/code.h"
 
-#include "fem/matrices/symmetric_matrix.h"
+#include "fem/equations/matrices/symmetric_matrix.h"

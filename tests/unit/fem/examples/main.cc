@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "fem/common/blas_kernels.h"
-#include "fem/common/parallel.h"
-#include "fem/model/model.h"
+#include "fem/base/common/blas_kernels.h"
+#include "fem/base/common/parallel.h"
+#include "fem/models/solid/model.h"
 
 int main(int argc, char** argv) {
   fem::restart_with_wide_blas(argv);

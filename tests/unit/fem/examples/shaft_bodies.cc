@@ -5,8 +5,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "fem/operators/stiffness.h"
-#include "fem/triangulation/body_grid.h"
+#include "fem/equations/operators/stiffness.h"
+#include "fem/mesh/triangulation/body_grid.h"
 #include "meshes/shaft/half_section.h"
 #include "meshes/shaft/shaft.h"
 

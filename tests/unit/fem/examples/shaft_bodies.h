@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "fem/axisymmetric/meridian_body.h"
-#include "fem/mesh/grid.h"
-#include "fem/values/body.h"
-#include "fem/values/unit_load.h"
-#include "fem/values/unit_responses.h"
+#include "fem/base/values/body.h"
+#include "fem/base/values/unit_load.h"
+#include "fem/base/values/unit_responses.h"
+#include "fem/mesh/grid/grid.h"
+#include "fem/models/axisymmetric/meridian_body.h"
 #include "meshes/shaft_layout/shaft_geometry.h"
 #include "meshes/values/body_mesh.h"
 

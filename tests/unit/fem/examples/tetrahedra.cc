@@ -6,7 +6,7 @@
 #include <map>
 #include <random>
 
-#include "fem/mesh/cell_geometry.h"
+#include "fem/mesh/grid/cell_geometry.h"
 
 namespace fem_tests {
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <memory>
 
-#include "fem/mesh/grid.h"
-#include "fem/values/coarse_mesh.h"
+#include "fem/base/values/coarse_mesh.h"
+#include "fem/mesh/grid/grid.h"
 
 namespace fem_tests {
 

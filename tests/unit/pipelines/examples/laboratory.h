@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "fem/values/body.h"
+#include "fem/base/values/body.h"
 #include "kinetics/vibratory_mill.h"
 #include "meshes/values/body_mesh.h"
 #include "pipelines/loads/channels/load_collector.h"

@@ -6,8 +6,8 @@
 #include <map>
 #include <vector>
 
-#include "fem/values/unit_responses.h"
-#include "fem/values/vtk_order.h"
+#include "fem/base/values/unit_responses.h"
+#include "fem/base/values/vtk_order.h"
 
 namespace results_test {
 

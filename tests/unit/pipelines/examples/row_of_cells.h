@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "fem/values/vtk_order.h"
+#include "fem/base/values/vtk_order.h"
 #include "pipelines/superpose/envelope/zones.h"
 
 namespace examples {

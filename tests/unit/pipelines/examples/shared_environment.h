@@ -1,7 +1,7 @@
 /// MPI starts once in a process and ends once: tests that mesh or solve share it.
 #pragma once
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 
 namespace shared {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fem/values/coarse_mesh.h"
+#include "fem/base/values/coarse_mesh.h"
 
 namespace verification {
 

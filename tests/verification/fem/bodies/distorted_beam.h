@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "fem/values/body.h"
+#include "fem/base/values/body.h"
 #include "tests/verification/fem/bodies/block_mesh.h"
 
 namespace verification {

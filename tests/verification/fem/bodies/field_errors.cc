@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fem/triangulation/body_grid.h"
+#include "fem/mesh/triangulation/body_grid.h"
 
 namespace verification {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "fem/stress/cell_stress.h"
+#include "fem/stress/cells/cell_stress.h"
 #include "tests/verification/fem/bodies/figures.h"
 
 namespace verification {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 
 namespace verification {
 

@@ -8,7 +8,7 @@
 #include <new>
 #include <sstream>
 
-#include "fem/values/errors.h"
+#include "fem/base/values/errors.h"
 #include "kinetics/values/machine_refused.h"
 #include "meshes/values/refused.h"
 #include "pipelines/base/common/errors.h"

@@ -12,7 +12,7 @@
 #include <optional>
 #include <sstream>
 
-#include "fem/model/model.h"
+#include "fem/models/solid/model.h"
 #include "pipelines/judge/estimates/place_stress.h"
 #include "pipelines/judge/stages/judge_body.h"
 #include "pipelines/judge/stages/shaft_torsion.h"
@@ -207,7 +207,7 @@ TEST(AxisymmetricRun, ABeamKnowsHowTorqueEnters) {
 }
 
 // Thick and thin, short and long, pulled, bent and twisted: shafts that nobody chose for the beam. Without
-// `near_loads` one in eight is not bounded; MILLSTRESS_BEAMS draws more of them (fem/README.md).
+// `near_loads` one in eight is not bounded; MILLSTRESS_BEAMS draws more of them (fem/models/README.md).
 TEST(AxisymmetricRun, BeamsOfRandomShaftsAreWithinTheirErrors) {
   const char* asked = std::getenv("MILLSTRESS_BEAMS");
   const unsigned n_shafts = asked != nullptr ? unsigned(std::atoi(asked)) : 8;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "fem/beam/beam_responses.h"
+#include "fem/models/beam/beam_responses.h"
 #include "pipelines/loads/channels/statics.h"
 #include "pipelines/loads/stage/body_mesh.h"
 #include "pipelines/search/cheap_models/cheap_responses.h"

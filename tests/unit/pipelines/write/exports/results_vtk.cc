@@ -16,7 +16,7 @@
 #include <cmath>
 #include <set>
 
-#include "fem/values/vtk_order.h"
+#include "fem/base/values/vtk_order.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/common/parallel.h"
 #include "pipelines/write/exports/vtk_files.h"

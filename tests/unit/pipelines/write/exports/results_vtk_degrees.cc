@@ -9,7 +9,7 @@
 
 #include <functional>
 
-#include "fem/values/vtk_order.h"
+#include "fem/base/values/vtk_order.h"
 #include "pipelines/write/exports/vtk_files.h"
 #include "tests/unit/pipelines/examples/results_bar.h"
 #include "tests/unit/pipelines/examples/results_directory.h"

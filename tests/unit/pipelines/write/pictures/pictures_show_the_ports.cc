@@ -14,7 +14,7 @@
 #include <map>
 #include <random>
 
-#include "fem/values/body_nodes.h"
+#include "fem/base/values/body_nodes.h"
 #include "pipelines/loads/stage/body_mesh.h"
 #include "pipelines/scene/whole/scene.h"
 #include "pipelines/write/drawing/label_rows.h"
