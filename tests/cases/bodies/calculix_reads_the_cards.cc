@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "tests/cases/program/program.h"
+#include "tests/unit/pipelines/examples/tools.h"
 
 using namespace cases;
 
@@ -75,6 +76,7 @@ std::vector<Reactions> reactions(const fs::path& dat) {
 }  // namespace
 
 TEST(CalculixCards, AreAppliedAsComputed) {
+  SKIP_WITHOUT("ccx");
   const results_test::Directory directory;
   std::string scene =
       edited("load_table.toml",

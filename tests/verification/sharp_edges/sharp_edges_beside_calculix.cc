@@ -19,6 +19,7 @@
 #include "pipelines/judge/stages/place_errors.h"
 #include "pipelines/search/loop/scene_run.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
+#include "tests/unit/pipelines/examples/tools.h"
 #include "tests/verification/calculix/calculix_results.h"
 #include "tests/verification/sharp_edges/sharp_parts.h"
 
@@ -261,11 +262,13 @@ void hold(const sharp_parts::SharpPart& part, const std::vector<double>& toleran
 }  // namespace
 
 TEST(SharpEdges, SlotIsBoundedBesideItsCorners) {
+  SKIP_WITHOUT("ccx");
   for (const auto& part : sharp_parts::all())
     if (part.name == "slot") hold(part, {0});
 }
 
 TEST(SharpEdges, TenPartsAreBoundedOnTheFirstRunAndInTheSearch) {
+  SKIP_WITHOUT("ccx");
   const char* only = std::getenv("MILLSTRESS_SHARP_PART");
   for (const auto& part : sharp_parts::all())
     if (only == nullptr || part.name == only) hold(part, {0, 0.05});
