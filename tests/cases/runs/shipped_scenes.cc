@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
@@ -41,18 +42,82 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+/// Folder and name of a quoted path: "papers/vibratory_mill".
+std::string name_of(const std::string& scene) {
+  const fs::path file(scene);
+  return (file.parent_path().filename() / file.stem()).string();
+}
+
+/// What all releases have to agree on, as Debian 12 has it: tests/data/release_figures.json, a part of it.
+/// With MILLSTRESS_NEW_FIGURES set the part is written anew at the end.
+class ReleaseFigures {
+public:
+  explicit ReleaseFigures(std::string part) : part_(std::move(part)) {
+    expected_ = nlohmann::json::parse(results_test::bytes(file_));
+  }
+  ~ReleaseFigures() {
+    if (std::getenv("MILLSTRESS_NEW_FIGURES") == nullptr) {
+      EXPECT_EQ(found_.size(), expected_[part_].size()) << "a figure is gone";
+      return;
+    }
+    expected_[part_] = found_;
+    write(file_, expected_.dump(1) + "\n");
+  }
+  ReleaseFigures(const ReleaseFigures&) = delete;
+  ReleaseFigures& operator=(const ReleaseFigures&) = delete;
+
+  void hold(const std::string& name, double value, double tolerance) {
+    found_[name] = value;
+    if (std::getenv("MILLSTRESS_NEW_FIGURES") != nullptr) return;
+    ASSERT_TRUE(expected_[part_].contains(name)) << name;
+    EXPECT_NEAR(value, expected_[part_][name].get<double>(), tolerance) << name;
+  }
+
+private:
+  const fs::path file_ = fs::path(SOURCE_DIR) / "tests/data/release_figures.json";
+  std::string part_;
+  nlohmann::json expected_, found_ = nlohmann::json::object();
+};
+
 }  // namespace
 
-// The loads of each scene that is shipped can be computed and read back.
+// The loads of each scene that is shipped can be computed and read back, and are the same on every release:
+// 1e-8 of a load's largest value, where libraries differ by rounding.
 TEST(ShippedScenes, GiveLoads) {
   const results_test::Directory directory;
+  ReleaseFigures expected("loads");
   for (const auto& scene : shipped_scenes()) {
     const auto loads = millstress(directory.path, "loads " + scene + " -o loads.h5 --csv loads.csv --json");
     EXPECT_EQ(loads.exit_code, 0) << loads.err;
-    EXPECT_FALSE(nlohmann::json::parse(loads.out)["loads"].empty());
+    const auto found = nlohmann::json::parse(loads.out)["loads"];
+    EXPECT_FALSE(found.empty());
+    for (const auto& [name, load] : found.items()) {
+      const double size = std::max(std::abs(load["max"].get<double>()), std::abs(load["min"].get<double>()));
+      for (const char* figure : {"max", "min", "rms"})
+        expected.hold(name_of(scene) + "/" + name + "/" + figure, load[figure], 1e-8 * size);
+    }
     const auto columns = csv(directory / "loads.csv");
     EXPECT_FALSE(columns.at("time").empty());
     EXPECT_TRUE(fs::exists(directory / "loads.h5"));
+  }
+}
+
+// Stresses are the same on every release: 1e-6 where the mesh is the same, else within both errors.
+TEST(ShippedScenes, HaveOneStressOnEachRelease) {
+  const results_test::Directory directory;
+  ReleaseFigures expected("stress");
+  for (const std::string run :
+       {"shaft.toml --method beam", "shaft.toml --method axisymmetric", "stub_axle.toml", "part.toml"}) {
+    const auto outcome = millstress(directory.path, "run -q --force -o r " + shipped(run).string());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto bodies = summary(directory / "r")["bodies"];
+    EXPECT_FALSE(bodies.empty());
+    for (const auto& [body, result] : bodies.items()) {
+      const auto& stress = result["governing"];
+      const bool is_same_mesh = run != "part.toml";  // gmsh's own tetrahedra differ from release to release
+      const double value = stress["value"], error = stress["error"]["total"];
+      expected.hold(run + "/" + body, value, is_same_mesh ? 1e-6 * value : 2 * error);
+    }
   }
 }
 
