@@ -1,6 +1,8 @@
 #include "kinetics/planetary/hodograph.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinetics/planetary_effects/belt.h"
 #include "kinetics/planetary_effects/effect.h"
@@ -59,43 +61,41 @@ Extreme extreme(const Harmonics& X, const Harmonics& Y, double sign) {
   return best;
 }
 
-Harmonics charge_moment(const Machine& machine, const std::vector<std::string>& effects) {
-  const PlanetaryMill& mill = machine.mill;
-  const double q = machine.charge.first_moment_kg_m, omega = mill.speed_rad_s;
-  const double weight_Nm = mill.gravity_m_s2 * q;
-  Harmonics M_A;
-  if (contains(effects, "charge_transport"))
-    M_A.mean_N = q * omega * omega * machine.geometry.carrier_m * std::cos(mill.charge.segment_angle_rad);
-  if (contains(effects, "charge_gravity")) {
-    M_A.cosine_N = -weight_Nm * std::sin(machine.weight_lag_rad);
-    M_A.sine_N = -weight_Nm * std::cos(machine.weight_lag_rad);
-  }
-  return M_A;
+/// Of values at phi = 0, 90, 180 and 270 degrees, which have no higher harmonics; rounding of what cancels is
+/// none.
+Harmonics harmonics(const Eigen::Array4d& value) {
+  const double least = 4 * std::numeric_limits<double>::epsilon() * value.abs().maxCoeff();
+  const auto or_nothing = [&](double x) { return std::abs(x) > least ? x : 0; };
+  return {or_nothing(value.mean()), or_nothing((value[0] - value[2]) / 2),
+          or_nothing((value[1] - value[3]) / 2)};
 }
 
-void add_masses(const Machine& machine, const std::vector<std::string>& effects, PlanetaryHodograph& h) {
-  const PlanetaryMill& mill = machine.mill;
-  const auto on = [&](const char* name) { return contains(effects, name); };
-  const double omega = mill.speed_rad_s, w = machine.offset_speed_rad_s;
-  const double carried_kg =
-      on("drum_transport") * mill.drum_mass_kg + on("charge_transport") * machine.charge.mass_kg;
-  const double weight_N = mill.gravity_m_s2 * (on("drum_gravity") * mill.drum_mass_kg +
-                                               on("charge_gravity") * machine.charge.mass_kg);
-  const bool offset_on = on("charge_offset") || on("charge_relative");
-  const double offset_N = offset_on ? machine.charge.first_moment_kg_m * w * w : 0;
-  const double alpha = mill.charge.segment_angle_rad;
-  h.X_A = {carried_kg * omega * omega * machine.geometry.carrier_m + offset_N * std::sin(alpha), 0,
-           -weight_N};
-  h.Y_A = {offset_N * std::cos(alpha), weight_N, 0};
+/// What the effects but the belt put on the axle, and their moment about A.
+struct Unbalanced {
+  Harmonics X_A, Y_A, M_A;
+};
+
+Unbalanced unbalanced(const Machine& machine, std::vector<std::string> effects) {
+  effects.erase(std::remove(effects.begin(), effects.end(), "belt"), effects.end());
+  const Instants quarters{Eigen::Array4d(0, pi / 2, pi, 3 * pi / 2), Eigen::Array4d::Zero()};
+  Unbalanced sum;
+  for (const auto& effect : make_effects(machine, effects)) {
+    const EffectLoad load = effect.evaluate(quarters);
+    add(sum.X_A, 1, harmonics(load.on_axle_N.row(0).transpose()));
+    add(sum.Y_A, -1, harmonics(load.on_axle_N.row(1).transpose()));
+    add(sum.M_A, 1, harmonics(load.moment_Nm));
+  }
+  return sum;
 }
 
 }  // namespace
 
 std::optional<PlanetaryHodograph> ellipse(const Machine& machine, const std::vector<std::string>& effects) {
   PlanetaryHodograph h;
-  add_masses(machine, effects, h);
+  const auto [X_A, Y_A, M_A] = unbalanced(machine, effects);
+  h.X_A = X_A;
+  h.Y_A = Y_A;
   if (contains(effects, "belt")) {
-    const Harmonics M_A = charge_moment(machine, effects);
     const TensionSum sum = tension_sum(machine);
     if (sum.factor != 0 && !sum.follows_sign && std::abs(M_A.mean_N) < M_A.amplitude_N()) return std::nullopt;
     const double sign = sum.follows_sign || M_A.mean_N >= 0 ? 1 : -1;
