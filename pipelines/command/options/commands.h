@@ -37,6 +37,9 @@ void add_run_command(CLI::App& app, ChosenCommand& chosen);
 /// `millstress loads`: the load stage alone.
 void add_loads_command(CLI::App& app, ChosenCommand& chosen);
 
+/// `millstress manual`: the manual page, and scripts by which shells complete.
+void add_manual_command(CLI::App& app, ChosenCommand& chosen);
+
 /// `millstress effects`: what each effect of the scene is worth in the loads, and what it costs.
 void add_effects_command(CLI::App& app, ChosenCommand& chosen);
 

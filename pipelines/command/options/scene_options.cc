@@ -3,6 +3,29 @@
 #include <CLI/CLI.hpp>
 
 namespace pipelines {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of scenes that come with the program, from the program's own place: installed, or in its build.
+constexpr const char* scene_folders[] = {"../share/millstress/scenes", "../pipelines/scenes"};
+
+/// A name without a folder and an ending that is no file here may be a scene that comes with the program.
+std::string file_of_scene(const std::string& scene) {
+  std::error_code none;
+  fs::path name(scene);
+  if (name.has_parent_path() || name.has_extension() || name.empty() ||
+      fs::exists(fs::symlink_status(name, none)))
+    return scene;
+  name += ".toml";
+  const auto program = fs::read_symlink("/proc/self/exe", none).parent_path();
+  for (const auto* folder : scene_folders)
+    if (const auto file = (program / folder / name).lexically_normal(); fs::is_regular_file(file, none))
+      return file.string();
+  return scene;
+}
+
+}  // namespace
 
 Verbosity SceneOptions::verbosity() const {
   return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
@@ -10,7 +33,16 @@ Verbosity SceneOptions::verbosity() const {
 
 CLI::App* add_scene_command(CLI::App& app, const char* name, const char* description, SceneOptions& options) {
   auto* command = app.add_subcommand(name, description);
-  command->add_option("scene", options.scene, "scene file (TOML)")->required();
+  command
+      ->add_option("scene", options.scene,
+                   "scene file (TOML), or the name of one that comes with the program")
+      ->required()
+      ->transform(CLI::Validator(
+          [](std::string& scene) {
+            scene = file_of_scene(scene);
+            return std::string();
+          },
+          ""));
   command
       ->add_option("--set", options.settings,
                    "KEY=VALUE: a key of the scene as if the file said so; may be repeated")
