@@ -24,7 +24,7 @@ public:
   /// Zeroes rows and columns of the unknowns and leaves their diagonal.
   Supports(const std::array<std::int64_t, 6>& unknowns, SymmetricMatrix& matrix)
       : Supports(std::vector<std::int64_t>(unknowns.begin(), unknowns.end()), matrix) {}
-  /// Of some of them: those that a part of the body has.
+  /// Some of them: those that a part of the body has.
   Supports(std::vector<std::int64_t> unknowns, SymmetricMatrix& matrix);
 
   /// The supported rows, ascending.

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of a body force about the origin: the integrals of rho a and rho r x a.
+/// The resultant of a body force about the origin: the integrals of rho a and rho r x a.
 std::array<double, 6> wanted_resultant(BodyForce::Field field, const MassProperties& masses) {
   using Field = BodyForce::Field;
   const double m = masses.mass_kg;

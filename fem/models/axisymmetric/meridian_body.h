@@ -45,8 +45,8 @@ struct MeridianBody {
   int n_cuts = 0;     ///< of all cells, each in four, after those near the fine circles
   std::vector<FineCircle> fine_circles{};
   double fine_growth = 0.5;
-  /// Of the body as its loads know it, where that is not this section: the resultants of body forces become
-  /// those of these masses, by a rigid field of accelerations that balancing takes away again.
+  /// Masses of the body as its loads know it, where that is not this section: the resultants of body forces
+  /// become those of these masses, by a rigid field of accelerations that balancing takes away again.
   std::optional<MassProperties> masses_of_loads{};
 };
 

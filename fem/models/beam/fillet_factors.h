@@ -3,7 +3,7 @@
 
 namespace fem {
 
-/// Of the nominal stress on the smaller diameter d: 4 F / pi d^2, 32 M / pi d^3, 16 T / pi d^3.
+/// Factors on the nominal stress of the smaller diameter d: 4 F / pi d^2, 32 M / pi d^3, 16 T / pi d^3.
 struct FilletFactors {
   double tension = 1, bending = 1, torsion = 1;
 };

@@ -79,7 +79,7 @@ private:
     }
   }
 
-  /// Of a band of unit line load: integral of its sine.
+  /// Integral of the sine over a band of unit line load.
   double sine_of_band(const TubePlate& plate, int m) const {
     const double k = m * pi / length_m_;
     return std::sin(k * (plate.z_m - tube_.begin_m)) * sinc(k * plate.thickness_m / 2);
@@ -110,7 +110,7 @@ private:
     return sum;
   }
 
-  /// Of the even tangential traction that carries 1 N m, as radial load of equal work: w sin(n a), v = w/n
+  /// The even tangential traction that carries 1 N m, as radial load of equal work: w sin(n a), v = w/n
   /// cos(n a).
   double tangential_wave(int n, std::size_t p, double angle_rad) const {
     if (n == 0) return 0;  // torsion alone

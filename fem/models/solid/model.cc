@@ -34,7 +34,7 @@
 
 namespace fem {
 
-/// Of the energy that recovered stress finds missing in a mode.
+/// By which the energy that recovered stress finds missing in a mode is multiplied.
 constexpr double safety_of_modes = 3;
 
 struct Model::Impl {
@@ -381,7 +381,7 @@ std::vector<std::vector<double>> Model::goal_errors_Pa(const UnitResponses& resp
   const RigidBalance rigid(grid, impl_->integrals);
   BalancedLoads loads = balance(rigid, clamped_unknowns(grid, impl_->body.clamps), std::move(force));
   move_to_masters(grid.hanging, loads.force);
-  // Of a dual solution the part that is mirrored alone meets errors that are.
+  // Errors that are mirrored meet the mirrored part of a dual solution alone.
   const MirroredHalf* half = responses.images.node.empty() ? nullptr : impl_->half();
   if (half != nullptr) half->make_even(loads.force);
   Eigen::MatrixXd dual = impl_->dual_solutions(loads, half, responses.solver);

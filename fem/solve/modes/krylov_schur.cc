@@ -218,7 +218,7 @@ Eigenpairs search_beside(const PetscSession& petsc, const VibrationProblem& prob
   return converged_pairs(petsc, solver.object, problem.n_rows);
 }
 
-/// Of both, ascending.
+/// The pairs of both, ascending.
 Eigenpairs joined(const Eigenpairs& a, const Eigenpairs& b) {
   Eigenpairs both{Eigen::VectorXd(a.value.size() + b.value.size()),
                   Eigen::MatrixXd(a.vector.rows(), a.value.size() + b.value.size())};

@@ -16,7 +16,7 @@
 namespace fem {
 
 namespace {
-/// Of one unknown under one load: five columns of the solver, displacement and stress.
+/// Bytes of one unknown under one load: five columns of the solver, displacement and stress.
 constexpr double bytes_per_response = 64;
 /// Beyond it displacements are not worth handing on.
 constexpr double most_rounding = 0.01;

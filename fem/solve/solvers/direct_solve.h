@@ -40,7 +40,7 @@ public:
   virtual bool is_on_all_ranks() const { return false; }
 };
 
-/// Of the stiffness, without computing it.
+/// The size of the stiffness' factor, without computing it.
 FactorSize analyse_factor(const Grid& grid, const CellsOfNodes& cells);
 
 struct DirectSolveOptions {

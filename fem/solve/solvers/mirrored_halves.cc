@@ -11,7 +11,7 @@ namespace fem {
 
 namespace {
 
-/// Of a load: a part of less is none, a hundredth of the residual that the solver accepts.
+/// A part of a load below this share is none: a hundredth of the residual that the solver accepts.
 constexpr double no_part = 1e-2 * acceptable_residual;
 
 std::vector<std::int32_t> cells_above(const Grid& whole, const MirrorPlane& plane) {
@@ -29,7 +29,7 @@ double sign_of(Parity parity, bool across) {
   return (parity == Parity::even) == across ? -1 : 1;
 }
 
-/// Of the loads that have a part of one parity: which they are, and these parts on the half.
+/// The loads that have a part of one parity, by column, and these parts on the half.
 struct PartLoads {
   std::vector<Eigen::Index> columns;
   Eigen::MatrixXd force;

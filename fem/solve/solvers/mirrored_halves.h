@@ -56,7 +56,7 @@ public:
     }
   }
 
-  /// Of symmetric tensors (xx, yy, zz, xy, yz, xz) of an even displacement.
+  /// Signs of symmetric tensors (xx, yy, zz, xy, yz, xz) of an even displacement.
   std::vector<double> signs_of_tensors() const;
 
   /// Nodes of the half, in the numbers of the whole.

@@ -140,7 +140,7 @@ struct SectionSums {
   std::array<double, 2> mean_rim_shear_Pa{};
 };
 
-/// Of the nodes that this rank has.
+/// The sums over the nodes that this rank has.
 SectionSums sum(const Grid& grid, const SectionPlane& plane, const Section& section,
                 const UnitResponses& responses, std::size_t load) {
   const auto stress = [&](std::int32_t node) {

@@ -26,7 +26,7 @@ std::vector<double> weights_around(const std::vector<double>& angles_rad);
 void respond_on_sections(const Grid& grid, const std::vector<SectionPlane>& planes, UnitResponses& responses);
 
 /// Fills rings and ring_shear_Pa: nodes of curved boundary faces whose chart has no shift, and of fillets.
-/// Of locally refined bodies only circles that have nodes all around.
+/// Locally refined bodies have only circles with nodes all around.
 void respond_on_rings(const Grid& grid, const Body& body, UnitResponses& responses);
 
 }  // namespace fem

@@ -27,7 +27,7 @@ std::size_t shape_of(CellShape shape, std::size_t place) {
 
 using Vector3 = Eigen::Vector3d;
 
-/// Of a node away from the point, where another lies there.
+/// What a node away from the point weighs where another lies there.
 constexpr double no_weight = 1e-9;
 
 /// A point of a face and how it moves with the reference coordinates.

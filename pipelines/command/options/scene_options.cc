@@ -7,7 +7,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of scenes that come with the program, from the program's own place: installed, or in its build.
+/// Where scenes that come with the program lie, from the program's own place: installed, or in its build.
 constexpr const char* scene_folders[] = {"../share/millstress/scenes", "../pipelines/scenes"};
 
 /// A name without a folder and an ending that is no file here may be a scene that comes with the program.

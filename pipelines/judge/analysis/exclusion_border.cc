@@ -41,7 +41,7 @@ private:
     return {x[0], x[1], x[2]};
   }
 
-  /// Of some nodes, not none, the first of the nearest ones.
+  /// The first of the nearest ones of some nodes, not none.
   std::size_t nearest(std::size_t node, const std::vector<std::size_t>& others) const {
     const auto distance_from = [&, at_m = point_m(node)](std::size_t other) {
       const auto to_m = point_m(other);
@@ -81,7 +81,7 @@ double left_out_beside_m(const meshes::BodyMesh& mesh, const std::array<double, 
   return left_out_m;
 }
 
-/// Of the faces at a node, in a half plane through the axis.
+/// The longest extent of the faces at a node, in a half plane through the axis.
 double longest_face_m(const fem::Nodes& nodes, std::size_t node) {
   double longest_m = 0;
   for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
@@ -117,7 +117,7 @@ const meshes::SharpEdge* nearest_border(const std::vector<meshes::SharpEdge>& ed
   return nearest == edges.end() ? nullptr : &*nearest;
 }
 
-/// Of the edges of faces at a node.
+/// The longest edge of the faces at a node.
 double longest_edge_m(const fem::Nodes& nodes, std::size_t node) {
   double longest_m = 0;
   const auto n_corners = std::size_t(nodes.shape().n_face_corners());
@@ -182,8 +182,8 @@ const meshes::SharpEdge* edge_beside_peak(const Judged& analysis) {
   if (nearest == nullptr) return nullptr;
   if (distance_m(analysis.peak.position_m, *nearest) < beside * nearest->distance_m) return nearest;
   const auto& nodes = analysis.responses.nodes;
-  // Of tetrahedra larger than what is left out the peak may lie in the middle of one that reaches to the
-  // edge.
+  // Where tetrahedra are larger than what is left out, the peak may lie in the middle of one that reaches to
+  // the edge.
   const bool of_tetrahedra = nodes.shape().is_tetrahedron();
   const auto rises_to = [&](std::int32_t node) {
     return analysis.places.excluded[std::size_t(node)] != 0 &&
@@ -205,7 +205,7 @@ bool is_at_border(const meshes::BodyMesh& mesh, const std::array<double, 3>& poi
 
 namespace {
 
-/// Of tetrahedra that may be larger than what is left out: those count that reach from the place to within.
+/// Tetrahedra may be larger than what is left out: those count that reach from the place to within.
 double tetrahedra_to_border(const Superposed& analysis, const PlaceStress& place) {
   const auto& nodes = analysis.responses.nodes;
   const auto* edge = nearest_border(analysis.mesh.sharp_edges, place.position_m, place.feature);

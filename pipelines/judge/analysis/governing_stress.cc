@@ -57,7 +57,7 @@ double of_load_patches_Pa(const ErrorBudget& errors) {
   return errors.of("load_patches") + errors.of("charge_patch");
 }
 
-/// Of the assumptions.
+/// The errors of assumptions, but for load patches.
 double without_load_patches_Pa(const ErrorBudget& errors) {
   return errors.total_Pa() - errors.numerical_Pa() - of_load_patches_Pa(errors);
 }

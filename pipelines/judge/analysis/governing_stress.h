@@ -28,7 +28,7 @@ struct GoverningStress {
   double relative_error() const { return value_Pa > 0 ? errors.numerical_Pa() / value_Pa : 0; }
 };
 
-/// Of a peak and a hot spot of the same value the peak.
+/// Where a peak and a hot spot have the same value it is the peak.
 GoverningStress governing_stress(const Judged& analysis);
 
 /// The errors that governing_stress states.

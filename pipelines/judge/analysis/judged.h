@@ -39,7 +39,7 @@ struct EffectBound {
   double estimated_Pa = 0;  ///< part of it from channels that were not solved (effect_bounds.h)
 };
 
-/// Of the effects that `effects = "auto"` has switched off.
+/// Bounds of the effects that `effects = "auto"` has switched off.
 struct DroppedBounds {
   std::vector<EffectBound> effects;
   EffectBound together;  ///< its effect has no name

@@ -5,11 +5,11 @@
 
 namespace pipelines {
 
-/// Of the pressure p beside its end on a smooth surface: what a stress there may have beyond the value that
-/// is recovered. Below the end of a strip of pressure stress depends on the direction from there alone
-/// (Flamant: principal stresses (p / pi)(alpha +- sin alpha), alpha the angle under which the strip is seen);
-/// von Mises stress in plane strain goes from 0 outside through 0.59 p straight below to 0.4 p inside. A node
-/// takes about the mean, 0.34 p; on cells that are large beside the distance it looks from, less.
+/// The share of the pressure p beside its end on a smooth surface that a stress there may have beyond the
+/// value that is recovered. Below the end of a strip of pressure stress depends on the direction from there
+/// alone (Flamant: principal stresses (p / pi)(alpha +- sin alpha), alpha the angle under which the strip is
+/// seen); von Mises stress in plane strain goes from 0 outside through 0.59 p straight below to 0.4 p inside.
+/// A node takes about the mean, 0.34 p; on cells that are large beside the distance it looks from, less.
 inline constexpr double share_at_load_edge = 0.3, share_of_a_node = 0.34;
 
 /// Adds the entry `load_edges` to the model part of the peak's budget where the stress at the end of a seat's

@@ -21,10 +21,10 @@ using Pressures = std::map<std::string, SolvedPressure>;
 
 /// Where between the least and the largest half angle patterns are looked at.
 constexpr std::array<double, 4> shares_of_range = {0, 1.0 / 3, 2.0 / 3, 1};
-/// Of the stress: what harmonics that were not solved may bring before they are.
+/// Share of the stress that harmonics may bring without being solved.
 constexpr double felt_share = 1.0 / 500;
 const std::string charge_patch = "charge_patch";
-/// Of an entry: what a port brings whose range is told.
+/// Share of an entry from which on the range of a port is told.
 constexpr double told_share = 0.02;
 
 PressurePattern varied(const PressureModel& model, double share) {

@@ -31,7 +31,7 @@ struct WeldPlace {
   /// instants; cycles have their turning points where the stress has them.
   ToeStress stress(const FactorCourse& course) const;
 
-  /// Of a series that is no period of a polynomial.
+  /// The stress of a series that is no period of a polynomial.
   ToeStress stress(const Eigen::ArrayXXd& factors) const {
     return toe_stress(unit_Pa * factors.matrix(), surface_normal, across_toe, detail);
   }
@@ -44,7 +44,7 @@ struct WeldPlace {
 /// @throws StageRefused if the scene's fatigue names a toe that the body does not have
 void require_toes(const BodyScene& body, const meshes::BodyMesh& mesh);
 
-/// Of all toes, in the order of Judged::hot_spots.
+/// All toes, in the order of Judged::hot_spots.
 std::vector<WeldPlace> weld_places(const Judged& analysis);
 
 }  // namespace pipelines

@@ -36,7 +36,7 @@ Peak headline(const Judged& analysis) {
   return peak;
 }
 
-/// Of the weld toe with the largest stress, which may govern.
+/// States the error of the weld toe with the largest stress, which may govern.
 void estimate_error_of_largest_toe(Judged& analysis) {
   if (analysis.hot_spots.empty()) return;
   auto& largest = analysis.hot_spots.front();
@@ -44,7 +44,7 @@ void estimate_error_of_largest_toe(Judged& analysis) {
   largest.error_Pa = analysis.hot_spot_errors.numerical_Pa();
 }
 
-/// Of the first zones, those that are shown, and of the other weld toes.
+/// States the errors of the zones that are shown and of the other weld toes.
 /// @param judged  places whose errors count instead
 void estimate_errors_shown(Judged& analysis, const std::vector<PlaceStress>& judged) {
   const auto is_judged = [&](const std::string& feature) {
@@ -67,7 +67,7 @@ bool has_cells(const fem::UnitResponses& responses) {
          !responses.energy_error.norm_sqrtJ.empty();
 }
 
-/// Of the body's envelope and peak.
+/// The zones of the body's envelope.
 Zones zones_of(const Judged& analysis, const ZoneRule& rule) {
   const double yield_Pa = analysis.scene.yield_strength_Pa;
   return find_zones(analysis.responses.nodes, analysis.envelope.von_mises, analysis.places,

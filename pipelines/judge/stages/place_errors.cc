@@ -42,9 +42,9 @@ double for_want_of_cells(const Responded& analysis, int cells) {
 }
 
 /// Relative error of the stress on the border of what is left out around a sharp edge, by cells_to_border.
-/// Of shoulders of blocks: cells that touch the edge disturb those beside them; solids were 17 % too high
-/// with one cell, 5.5 % with 2.5, 1.2 % with 5, while the changes from mesh to mesh told of a third. Of
-/// tetrahedra: within one cell of the edge the stress is as steep as the interpolant of r^0.54, 34 % too
+/// At shoulders of blocks cells that touch the edge disturb those beside them; solids were 17 % too high
+/// with one cell, 5.5 % with 2.5, 1.2 % with 5, while the changes from mesh to mesh told of a third. With
+/// tetrahedra, within one cell of the edge the stress is as steep as the interpolant of r^0.54, 34 % too
 /// high, so that a quarter of it is not there (tests/unit/fem/stress/recovery/sharp_edges_have_two_sides.cc);
 /// from one cell on it falls as beside blocks, 3 to 4 % with two (tests/verification/sharp_edges).
 double for_want_of_cells_to_border(double cells, bool of_tetrahedra) {
@@ -70,9 +70,9 @@ double own_error_Pa(const Superposed& analysis, const StressPoint& point) {
 /// largest places of shafts, and cells around one node agree by chance.
 constexpr double unasked_safety = 2;
 
-/// Of tetrahedra: every place that, as far as single cells tell, may exceed the largest value is looked at by
-/// a submodel, as long as there is time. Beside a spring or a clamp, which holds the submodel's displacement,
-/// single cells have the word.
+/// Bodies of tetrahedra: every place that, as far as single cells tell, may exceed the largest value is
+/// looked at by a submodel, as long as there is time. Beside a spring or a clamp, which holds the submodel's
+/// displacement, single cells have the word.
 void ask_submodels(const Superposed& analysis, double largest_Pa, double seconds,
                    std::vector<PlaceStress>& places) {
   const auto& responses = analysis.responses;

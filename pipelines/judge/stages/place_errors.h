@@ -14,7 +14,7 @@ namespace pipelines {
 /// shafts halved from 4 to 8 cells were off by up to 1.4 times what second order made of the change.
 constexpr int cells_that_converge = 6;
 
-/// Of the largest stress: below it a place is taken to be as wrong as it can be.
+/// Share of the largest stress: below it a place is taken to be as wrong as it can be.
 constexpr double share_worth_a_look = 0.4;
 
 /// The features of a body and its inside, and its weld toes by their hot-spot stress. The error of a place is
@@ -49,7 +49,7 @@ void take_place_errors(Judged& analysis, const std::vector<PlaceStress>& judged,
 /// @return infinite if the feature is not judged
 double error_share_at(const Judged& analysis, const std::string& feature, std::size_t node,
                       const ChannelHistory& loads, std::int32_t instant);
-/// Of the largest stress there over the cycle.
+/// The relative error of the largest stress there over the cycle.
 double error_share_at(const Judged& analysis, const std::string& feature, std::size_t node);
 
 /// The numerical error of half a change of the stress, of an amplitude, at a node of a feature that is

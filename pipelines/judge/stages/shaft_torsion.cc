@@ -58,7 +58,7 @@ Course torque_course(const kinetics::CourseFigures& of) {
   return {of.mean, (of.largest - of.least) / 2, std::max(of.largest, -of.least)};
 }
 
-/// Of the segments that a place lies in: at a shoulder there are two.
+/// The least section modulus of the segments that a place lies in: at a shoulder there are two.
 double least_modulus_m3(const meshes::Shaft& shaft, double z_m) {
   const double tolerance_m = same_place * (shaft.segments.back().end_m - shaft.segments.front().begin_m);
   double least = std::numeric_limits<double>::infinity();
@@ -111,7 +111,7 @@ RingTorsion ring_torsion(const Judged& analysis, std::size_t index, const Betwee
   return result;
 }
 
-/// Of the rings that are nearer to the middle of this port than to that of any other, the one stressed most.
+/// The ring stressed most of those that are nearer to the middle of this port than to that of any other.
 std::optional<RingTorsion> largest_near(const Judged& analysis, const std::vector<double>& middles_m,
                                         std::size_t port, const BetweenInstants& between) {
   const auto& rings = analysis.diagrams->rings;

@@ -48,7 +48,8 @@ struct ElementTorsion {
   std::optional<RingTorsion> largest;  ///< the ring stressed most of those nearest to this port
 };
 
-/// Of every element that joins the shaft; none of other bodies, and where no section diagrams are.
+/// The torsion of every element that joins the shaft; none of other bodies, and where no section diagrams
+/// are.
 /// @param loads   the load stage that the analysis is of
 /// @param course  what the machine knows of its quantities between the instants; empty: nothing
 std::vector<ElementTorsion> element_torsion(const Judged& analysis, const kinetics::LoadHistory& loads,
@@ -65,7 +66,7 @@ Eigen::ArrayXd signed_ring_stress_Pa(const Eigen::Array2Xd& shear_Pa);
 ///   tensor is off by, over sqrt(3). Beside what is left out at sharp edges, also TorsionRing::rise_Pa.
 /// - the difference to Diagrams::by_harmonics with its error; that one, too, where the models differ by more
 ///   than both state.
-/// Of harmonics, their own error; infinite where nothing is known. To these comes what the ring's largest
+/// Harmonics have their own error; infinite where nothing is known. To these comes what the ring's largest
 /// stress between the instants may exceed max_Pa by (sampling_error_Pa), and rounding.
 /// @param ring  largest_torsion_ring
 double ring_error_Pa(const Judged& analysis, const TorsionRing& ring);

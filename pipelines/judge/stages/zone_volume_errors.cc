@@ -15,10 +15,10 @@
 namespace pipelines {
 namespace {
 
-/// Of the zones' level: a node below it is not doubted by its cells.
+/// Share of the zones' level: a node below it is not doubted by its cells.
 constexpr double worth_a_look = 0.2;
-/// Of the differences of cells between a straight and a curved stress: harmonics had 2036 and 2070 mm3 where
-/// finer solids come to 2116.
+/// Multiplies the differences of cells between a straight and a curved stress: harmonics had 2036 and 2070
+/// mm3 where finer solids come to 2116.
 constexpr double safety_between_nodes = 1.5;
 
 /// Shares of error of the features that are judged. Far below the largest stress a place's error is the
@@ -63,7 +63,7 @@ std::vector<double> doubts_of_cells_Pa(const Judged& analysis) {
   return fem::largest_cell_differences_Pa(responses, analysis.scene.material, factors);
 }
 
-/// Of the peak, but for what single cells and places tell.
+/// The share of the peak's error that single cells and places do not tell.
 double share_of_the_rest(const Peak& peak) {
   const double rest_Pa =
       peak.errors.numerical_Pa() - peak.errors.of("discretisation") - peak.errors.of("other_places");

@@ -105,8 +105,8 @@ double missing_Pa(const std::vector<double>& values) {
   return std::max({safety * last * ratio / (1 - ratio), hidden * before, least_share * values.back()});
 }
 
-/// Of torsional stress on one section alone: largest error of 53 twisted shafts 0.31 %, but for what lies
-/// between rings.
+/// Torsional stress on one section alone: the largest error of 53 twisted shafts was 0.31 %, but for what
+/// lies between rings.
 constexpr double error_of_one_section = 0.02;
 
 /// Inside, of a node's value: sections keep their points there. A seat that is tilted had 6.86 MPa at 16 mm

@@ -43,7 +43,7 @@ public:
 private:
   std::size_t node(std::size_t circle, int half_plane) const;
   std::array<double, 3> weights_along(double along_m) const;
-  /// Of the nodes of a circle.
+  /// Weights of the nodes of a circle.
   std::vector<double> weights_around(double angle_rad) const;
 
   const fem::UnitResponses& responses_;

@@ -16,7 +16,7 @@
 namespace pipelines {
 namespace {
 
-/// Of cells with polynomials of degree 2, those on the surface among them (unit test described_bodies).
+/// Cells with polynomials of degree 2, those on the surface among them (unit test described_bodies).
 constexpr double unknowns_per_hexahedron = 27, unknowns_per_tetrahedron = 5;
 
 fem::MassProperties swept_masses(const meshes::SweptVolume& volume, double density_kg_m3) {

@@ -14,7 +14,7 @@
 namespace pipelines {
 namespace {
 
-/// Of the discretisation: half of a tolerance, and without one what a second buys.
+/// The error that the discretisation may have: half of a tolerance, and without one what a second buys.
 constexpr double share_of_tolerance = 0.5, usual_target = 0.01;
 
 /// Bending by axial force and torsion by force across, both by the offset of an eccentric segment's axis from

@@ -33,7 +33,7 @@ private:
   struct Series;
   std::shared_ptr<Series> series_;
   BetterLoads better_loads_;
-  // Of the section that was solved:
+  // What is known of the section that was solved:
   std::string fineness_;
   bool is_section_fine_ = false;
   std::vector<PlaceStress> places_;

@@ -43,8 +43,8 @@ SearchMesh first_mesh(const BodyScene& body, const std::function<MeshedBody(cons
 std::optional<SearchMesh> finer_mesh(const BodyScene& body, const std::function<MeshedBody(BodyScene&)>& mesh,
                                      const std::function<double()>& seconds_left, std::string& refusal);
 
-/// Of a user's own file whose search ended with its first mesh, long after its limit of time; else empty. One
-/// mesh has to be solved for a result, and that may take longer than there is.
+/// Tells that the search of a user's own file ended with its first mesh, long after its limit of time; else
+/// empty. One mesh has to be solved for a result, and that may take longer than there is.
 /// @param end_s  limit of time, from the start of the run; 0: none
 std::string warning_of_overrun(const BodyScene& body, const Search& search, double end_s, double now_s);
 

@@ -231,7 +231,7 @@ std::string SolidModel::fineness() const {
   return fineness_text(body());
 }
 
-/// Of natural frequencies, as predicted at the present pace of the machine.
+/// What natural frequencies will take, at the present pace of the machine.
 double SolidModel::seconds_after() const {
   if (body().natural_frequencies <= 0) return 0;
   return fem::at_present_pace(fem::cost::frequencies_s_per_dof * double(meshed().model->n_dofs()));

@@ -16,7 +16,7 @@
 namespace pipelines {
 namespace {
 
-/// Of what a goal's cells contribute: cells are cut by falling share until this is reached (Doerfler 1996).
+/// Cells are cut by falling contribution to a goal until this share of the sum is reached (Doerfler 1996).
 /// With 0.6 the default chamber took five meshes to 5 %, with 0.8 four of about the same size, with 0.92 four
 /// of up to 409 k unknowns. Where less is enough to meet the tolerance, less is cut, but not below the second
 /// one: the steps would be too many.
@@ -25,9 +25,9 @@ constexpr double most_that_is_cut = 0.8, least_that_is_cut = 0.4;
 /// default chamber took 270 k unknowns to 2 %, not 208 k. And what cells contribute less once they are cut,
 /// at least.
 constexpr double aim = 0.5, aim_at_toes = 0.75, gain_of_cutting = 0.75;
-/// Of the sum of all contributions to a goal, as an error: on surfaces, where the sum was 2 to 5 times the
-/// true error of the default shaft, and at weld toes, whose two nodes make the dual stress steep and the sum
-/// 7 times and more of that of the default chamber.
+/// The share of the sum of all contributions to a goal that counts as an error: on surfaces, where the sum
+/// was 2 to 5 times the true error of the default shaft, and at weld toes, whose two nodes make the dual
+/// stress steep and the sum 7 times and more of that of the default chamber.
 constexpr double share_on_surfaces = 0.5, share_at_toes = 0.25;
 /// Contributions that differ by less count as equal.
 constexpr double alike = 1e-3;
@@ -39,7 +39,8 @@ constexpr double least_share = 0.5;
 /// Places by falling sum of stress and error: cutting cells for more of them costs more than it tells.
 constexpr std::size_t most_goals = 6;
 
-/// Of a fillet's stress beside larger cells: 8 and 16 cells on one that held 152.2 MPa gave 146.9 and 150.2.
+/// The order of a fillet's stress beside larger cells: 8 and 16 cells on one that held 152.2 MPa gave 146.9
+/// and 150.2.
 constexpr double order_of_halving = 1.5;
 
 /// Each mending makes the larger cells half as large; those of a search are at most so often cut.
@@ -216,7 +217,7 @@ std::vector<Goal> goals_of(const Judged& analysis, const std::vector<const Place
   return goals;
 }
 
-/// Of each goal, what each cell contributes to its error. Some at a time: dual solutions and their stresses
+/// What each cell contributes to the error of each goal. Some at a time: dual solutions and their stresses
 /// are as large as those of unit loads.
 std::vector<std::vector<double>> contributions_Pa(const fem::Model& model, const Responded& analysis,
                                                   const std::vector<Goal>& goals) {
@@ -232,7 +233,7 @@ std::vector<std::vector<double>> contributions_Pa(const fem::Model& model, const
   return all;
 }
 
-/// Of these goals, by index, those whose places may lead, at most most_goals.
+/// Indices of the goals whose places may lead, at most most_goals.
 std::vector<std::size_t> goals_to_cut_for(const std::vector<Goal>& goals,
                                           const std::vector<PlaceStress>& judged) {
   std::vector<std::size_t> leading;

@@ -45,12 +45,12 @@ struct SecondModel {
 /// How far a search believes its meshes. The values here hold for places that a second model of the same
 /// problem has, too.
 struct TrustInMeshes {
-  /// Of what one mesh tells by itself of an error, the share that later meshes cannot take back, since two
+  /// The share of what one mesh tells by itself of an error that later meshes cannot take back, since two
   /// meshes may agree by chance: after the first change of a stress that every part of the mesh has told of,
   /// and after more.
   double kept_after_one = 0.1, kept_after_more = 0.1;
-  /// Of a stress, what is open at least where no finer mesh has been compared: cells may be too large to
-  /// show that they miss something.
+  /// The share of a stress that is open at least where no finer mesh has been compared: cells may be too
+  /// large to show that they miss something.
   double open_on_one_mesh = 0;
 };
 

@@ -24,7 +24,8 @@ constexpr int coarsest_start = 4;  // times coarser_start: where time is short
 constexpr std::array<std::array<int, 2>, 4> first_shaft_meshes = {{{2, 8}, {4, 8}, {4, 12}, {6, 16}}};
 /// With fewer cells on its quarter a fillet's stress does not converge with its order yet.
 constexpr int resolved_fillet = 4;
-/// Of the largest stress: fillets above are resolved from the start, above the second one half as well.
+/// Shares of the largest stress: fillets above the first are resolved from the start, above the second half
+/// as well.
 constexpr double leading_share = 0.8, minor_share = 0.5;
 constexpr double toe_step = 2, other_toes_step = 1.1, elsewhere_step = 1.05, toe_order = 1;
 /// Entries that large beside the largest one are mended in the same step.
@@ -33,7 +34,7 @@ constexpr int most_pressure_harmonics = 64;
 constexpr double smallest_exponent = 0.1, kept_exponent = 0.75;
 
 constexpr int most_steps = 16;
-/// Of the error that no mesh lowers: finer meshes would lower the sum by no more.
+/// Below this share of the error that no mesh lowers finer meshes would hardly lower the sum.
 constexpr double well_known_beside = 0.3;
 /// Steps that may pass without a lower error: each part of a mesh once, and one.
 constexpr std::size_t patience = 5;

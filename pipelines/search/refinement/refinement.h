@@ -20,12 +20,12 @@ bool is_block_shaft(const BodyScene& body);
 /// The parts of a body's mesh that a search varies one at a time.
 std::vector<MeshPart> mesh_parts(const BodyScene& body);
 
-/// Of tetrahedra's own estimate all is kept: it has no margin to give away (tetrahedra_estimate.h). Of that
-/// of a chamber, whose meshes were seen to agree at 41 MPa where finer ones have 38, all that single cells
-/// differ by after one change, half of that after more; both without the safety factor of 3. Of a shaft's
-/// that is refined locally the same, since two meshes with 90 MPa stood beside 92.7. And a shaft's first mesh
-/// leaves 12 % open: near the end of one that spins it had 17.7 +- 0.8 MPa, 19.3 is right, and 16.6 +- 0.9 on
-/// the end, 14.9 is right.
+/// All of the own estimate of tetrahedra is kept: it has no margin to give away (tetrahedra_estimate.h). Of
+/// that of a chamber, whose meshes were seen to agree at 41 MPa where finer ones have 38, all that single
+/// cells differ by after one change, half of that after more; both without the safety factor of 3. Of a
+/// shaft's that is refined locally the same, since two meshes with 90 MPa stood beside 92.7. And a shaft's
+/// first mesh leaves 12 % open: near the end of one that spins it had 17.7 +- 0.8 MPa, 19.3 is right,
+/// and 16.6 +- 0.9 on the end, 14.9 is right.
 TrustInMeshes trust_in_meshes(const BodyScene& body);
 
 /// Meshes that a search may begin with, the first one that the mesher takes: shafts with 2 cells on every
@@ -34,11 +34,11 @@ TrustInMeshes trust_in_meshes(const BodyScene& body);
 /// last.
 std::vector<BodyScene> first_meshes(const BodyScene& body);
 
-/// Of a STEP file: four meshes with ever larger cells, from those of first_meshes on, by factors of 1.5.
+/// For a STEP file: four meshes with ever larger cells, from those of first_meshes on, by factors of 1.5.
 /// Other bodies: none.
 std::vector<BodyScene> first_meshes_in_time(const BodyScene& body);
 
-/// Of tetrahedra: the body with cells smaller by 4, 9 and 15 %, for a mesh that is refused for a few of its
+/// For tetrahedra: the body with cells smaller by 4, 9 and 15 %, for a mesh that is refused for a few of its
 /// cells: which ones come out flat is chance. Other bodies: none.
 std::vector<BodyScene> nearly_as_fine(const BodyScene& body);
 

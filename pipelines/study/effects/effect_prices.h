@@ -31,7 +31,7 @@ struct EffectPrice {
 std::vector<EffectPrice> price_effects(const Judged& analysis, double solve_s, double superpose_s,
                                        const std::vector<std::pair<std::string, double>>& evaluation_s);
 
-/// Of the terminal alone: seconds change from run to run.
+/// Fields of the terminal alone: seconds change from run to run.
 FieldTable<EffectPrice> effect_price_fields();
 
 /// One line for each effect: share of the peak, channels, seconds.

@@ -78,7 +78,7 @@ std::size_t room_of_walk(const Factors& factors);
 /// does is told by the characteristic polynomial; the angle is computed where it is larger.
 ///
 /// Without knots, for rougher factors, all instants take five multiply-adds per channel and the five squares.
-/// Of each block the largest squares are kept; the block that has the largest is superposed once more, with
+/// The largest squares of each block are kept; the block that has the largest is superposed once more, with
 /// the mean stress, and so are blocks where a bound of the mean and 2/3 of the largest von Mises stress reach
 /// the largest principal stress so far. The nodes of a batch share each block of factors while it is in the
 /// cache.

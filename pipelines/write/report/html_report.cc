@@ -245,7 +245,7 @@ void add_bearings(HtmlPage& page, const Json& summary) {
   page.table(shown_bearing_answers(summary.at("bearings")));
 }
 
-/// Of a drive train; nothing of other machines.
+/// Frequencies and torques of a drive train; nothing of other machines.
 void add_train(HtmlPage& page, const Json& summary) {
   if (!summary.contains("torsion")) return;
   const auto& torsion = summary.at("torsion");
