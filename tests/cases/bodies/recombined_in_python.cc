@@ -120,3 +120,41 @@ TEST(Recombined, ByTheFiveLinesOfThePage) {
 TEST(Recombined, OfHarmonicsAroundTheAxisToo) {
   expect_recombined("axisymmetric");
 }
+
+// The module that is installed: figures, loads, histories, envelopes of some effects. Red if a file is
+// renamed or laid out otherwise, or if the page's example falls behind.
+TEST(Recombined, ByTheModule) {
+  const results_test::Directory directory;
+  write(directory / "shaft.toml",
+        "method = \"solid\"\n" +
+            small_shaft({{"pull", "middle.fx", "100 N", 1}, {"twist", "middle.torque", "3 N m", 2}}, "mm",
+                        "600 rpm", ""));
+  ASSERT_EQ(millstress(directory.path, "run shaft.toml --tolerance none").exit_code, 0);
+  const auto rows = printed_by_python(
+      directory.path,
+      {"import sys, numpy as np", "sys.path.insert(0, '" SOURCE_DIR "/pipelines/python')",
+       "import millstress", "results = millstress.load('results/shaft')", "shaft = results.body('shaft')",
+       "peak = results.figures['bodies.shaft.peak_von_mises']",
+       "place = results.summary['bodies']['shaft']['peak_von_mises']['position_m']",
+       "node = shaft.nearest(place)", "all_Pa, instant = shaft.envelope()",
+       "pull_Pa, _ = shaft.envelope(effects=['pull'])",
+       "print(repr(peak.value), repr(peak.error), repr(float(all_Pa[node])))", "history = shaft.stress(node)",
+       "print(repr(float(millstress.von_mises(history).max())), int(instant[node] == "
+       "millstress.von_mises(history).argmax()))",
+       "parts = shaft.stress(node, ['pull']) + shaft.stress(node, ['twist'])",
+       "print(repr(float(abs(parts - history).max())), repr(float(pull_Pa[node])))",
+       "print(len(results.time_s), len(results.effects), int(results.verdict['judgement'] == "
+       "results.summary['verdict']['judgement']))"});
+  ASSERT_EQ(rows.size(), 4u);
+  const double peak_Pa = rows[0].at(0);
+  const auto& told = summary(directory / "results/shaft")["bodies"]["shaft"]["peak_von_mises"];
+  EXPECT_EQ(peak_Pa, told["value"].get<double>());
+  EXPECT_EQ(rows[0].at(1), told["error"]["total"].get<double>());
+  EXPECT_NEAR(rows[0].at(2), peak_Pa, 1e-9 * peak_Pa) << "the same sum in another order";
+  EXPECT_NEAR(rows[1].at(0), peak_Pa, 1e-9 * peak_Pa);
+  EXPECT_EQ(rows[1].at(1), 1);
+  EXPECT_LT(rows[2].at(0), 1e-9 * peak_Pa);
+  EXPECT_LT(rows[2].at(1), 0.999 * peak_Pa) << "the twist is left out";
+  EXPECT_GT(rows[2].at(1), 0.1 * peak_Pa);
+  EXPECT_EQ(rows[3], (std::vector<double>{24, 2, 1}));
+}
