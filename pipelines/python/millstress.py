@@ -49,9 +49,9 @@ class Results:
         with h5py.File(directory / "loads.h5") as loads:
             self.time_s = loads["time"][()]
             self.drive_angle_rad = loads["phi"][()]
-            self.effects = list(loads["effects"])
+            self.effects = list(loads.get("effects", {}))
             self.loads = {name: Load(self.time_s, values[()], _text(values.attrs["unit"]))
-                          for name, values in loads["quantities"].items()}
+                          for name, values in loads.get("quantities", {}).items()}
 
     def body(self, name):
         """A body that was solved, by harmonics around the axis or as a solid."""
