@@ -147,7 +147,7 @@ TEST(Recombined, ByTheModule) {
        "results.summary['verdict']['judgement']))"});
   ASSERT_EQ(rows.size(), 4u);
   const double peak_Pa = rows[0].at(0);
-  const auto& told = summary(directory / "results/shaft")["bodies"]["shaft"]["peak_von_mises"];
+  const auto told = summary(directory / "results/shaft")["bodies"]["shaft"]["peak_von_mises"];
   EXPECT_EQ(peak_Pa, told["value"].get<double>());
   EXPECT_EQ(rows[0].at(1), told["error"]["total"].get<double>());
   EXPECT_NEAR(rows[0].at(2), peak_Pa, 1e-9 * peak_Pa) << "the same sum in another order";
