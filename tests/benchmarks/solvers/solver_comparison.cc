@@ -69,7 +69,7 @@ SolverRow compare_solvers(const fem::Body& body, const std::vector<fem::UnitLoad
   row.n_dofs = grid.n_unknowns();
   row.aspect = report.largest_aspect;
   auto [iterated, iterative] = run(report.predicted_iterative, [&] {
-    const fem::PetscSolver levels({MPI_COMM_SELF, grid, cells, elastic, std::vector<int>(grid.n_nodes, 0)},
+    const fem::PetscSolver levels({MPI_COMM_SELF, grid, cells, elastic}, std::vector<int>(grid.n_nodes, 0),
                                   {}, {fem::Solver::iterative});
     return levels.solve_whole(loads, silent);
   });
