@@ -1,5 +1,6 @@
 #include "pipelines/judge/verdict/local_laws.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fem/models/beam/fillet_factors.h"
@@ -65,10 +66,12 @@ std::optional<double> thickness_for(const PlateStress& stress, double thickness_
                                     double factor, const StrengthBySize& strength) {
   const auto stress_Pa = [&](double size_m) {
     const double x = size_m / thickness_m;
-    Stress at{};
-    for (std::size_t c = 0; c < at.size(); ++c)
-      at[c] = (stress.membrane[c] / x + stress.bending[c] / (x * x)) * (1 - own_share + own_share * x);
-    return von_mises_Pa(at);
+    Stress by_parts{}, bent{};
+    for (std::size_t c = 0; c < bent.size(); ++c) {
+      by_parts[c] = stress.membrane[c] / x + stress.bending[c] / (x * x);
+      bent[c] = (stress.membrane[c] + stress.bending[c]) / (x * x);
+    }
+    return std::max(von_mises_Pa(by_parts), von_mises_Pa(bent)) * (1 - own_share + own_share * x);
   };
   const double now_Pa = stress_Pa(thickness_m);
   if (!(now_Pa > 0)) return std::nullopt;

@@ -40,6 +40,7 @@ inline constexpr double thickest = 2;
 
 /// The least thickness at which the von Mises stress at the face over the strength there is less by a factor:
 ///   sigma(t) = (membrane t0/t + bending (t0/t)^2) (1 - own + own t/t0)
+/// It is never taken to fall faster than bending alone: where both parts oppose, the other face leads.
 /// @param thickness_m  present, t0
 /// @param own_share    share of the stress that the accelerated mass of the plate itself brings: it grows
 /// with the thickness

@@ -68,6 +68,7 @@ TEST(SizesByLocalLaws, BendingGoesByTheSquareOfTheThickness) {
   const double m = 20, b = 30, f = 1.5;
   EXPECT_NEAR(*thickness_for(plate(m, b), 1, 0, f),
               f * (m + std::sqrt(m * m + 4 * b * (m + b) / f)) / (2 * (m + b)), rounding);
+  EXPECT_NEAR(*thickness_for(plate(-20, 70), 1, 0, 1.44), 1.2, rounding) << "no faster than bending";
   // Where bending relieves the face, 100 / x - 80 / x^2 rises with the thickness.
   EXPECT_FALSE(thickness_for(plate(100, -80), 1, 0, 1.01));
   EXPECT_FALSE(thickness_for(plate(0, 1), 0.006, 0, 4.2)) << "beyond twice the thickness";
