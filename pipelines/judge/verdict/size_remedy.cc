@@ -166,7 +166,10 @@ std::optional<Plate> drum_wall(const meshes::Shaft& drum, const std::string& pla
   return std::nullopt;
 }
 
-std::optional<Plate> plate_at(const BodyScene& scene, const std::string& place, bool is_toe) {
+/// None where ranks share the body: a rank has the stress of its own nodes only.
+std::optional<Plate> plate_at(const Judged& analysis, const std::string& place, bool is_toe) {
+  const auto& scene = analysis.scene;
+  if (analysis.responses.shared) return std::nullopt;
   if (const auto* chamber = std::get_if<ChamberShape>(&scene.shape))
     return chamber_plate(chamber->geometry, place, is_toe);
   return scene.name == "drum" && scene.shaft() != nullptr ? drum_wall(scene.shaft()->geometry, place)
@@ -179,7 +182,7 @@ using UnitStress = std::vector<std::array<double, 6>>;
 UnitStress opposite_unit_Pa(const Judged& analysis, const TooLarge& stress, double thickness_m) {
   constexpr double off_surface = 0.05;  // of the thickness: the normal is one of chords
   const auto& nodes = analysis.responses.nodes;
-  if (nodes.faces.empty() || analysis.responses.shared) return {};
+  if (nodes.faces.empty()) return {};
   const auto normal = SurfaceSlopes(nodes).outward_normal(stress.node);
   auto at_m = stress.position_m;
   for (std::size_t c = 0; c < 3; ++c) at_m[c] -= thickness_m * normal[c];
@@ -221,12 +224,11 @@ std::string thickness_remedy(const Plate& plate, const Faces& faces, const TooLa
 }
 
 std::string thickness_remedy(const Judged& analysis, const TooLarge& stress) {
-  const auto plate = plate_at(analysis.scene, stress.place, false);
+  const auto plate = plate_at(analysis, stress.place, false);
   if (!plate) return "";
   const auto factors = taken_from(analysis.loads.history.values, stress);
   Faces faces;
-  if (!analysis.responses.shared)
-    faces.own_Pa = stress_of(unit_stress_at(analysis.responses, {{{stress.node, 1}}, 0}), factors);
+  faces.own_Pa = stress_of(unit_stress_at(analysis.responses, {{{stress.node, 1}}, 0}), factors);
   if (const auto unit_Pa = opposite_unit_Pa(analysis, stress, plate->thickness_m); !unit_Pa.empty())
     faces.opposite_Pa = stress_of(unit_Pa, factors);
   const auto gradient = [](double thickness_m) { return 2 / thickness_m; };
@@ -234,7 +236,6 @@ std::string thickness_remedy(const Judged& analysis, const TooLarge& stress) {
 }
 
 std::string size_remedy(const Judged& analysis, const TooLarge& stress) {
-  if (!(stress.factor > 1)) return "";
   if (const auto* shaft = analysis.scene.shaft())
     if (auto text = radius_remedy(analysis, shaft->geometry, stress); !text.empty()) return text;
   return thickness_remedy(analysis, stress);
@@ -245,7 +246,7 @@ std::string size_remedy(const Judged& analysis, const TooLarge& stress) {
 /// @param is_range   its largest change over the cycle; else the largest stress
 std::string toe_remedy(const Judged& analysis, const std::string& toe, double factor, double angle_rad,
                        bool is_range, bool is_of_running) {
-  const auto plate = plate_at(analysis.scene, toe, true);
+  const auto plate = plate_at(analysis, toe, true);
   if (!plate || !analysis.scene.fatigue) return "";
   const auto spot = std::find_if(analysis.hot_spots.begin(), analysis.hot_spots.end(),
                                  [&](const auto& s) { return s.name == toe; });
@@ -279,6 +280,7 @@ std::string toe_remedy(const Judged& analysis, const std::string& toe, double fa
 }  // namespace
 
 std::string size_remedy(const Judged& analysis, double factor) {
+  if (!(factor > 1)) return "";
   const auto governing = governing_stress(analysis);
   if (governing.kind == GoverningStress::Kind::hot_spot)
     return toe_remedy(analysis, governing.place, factor, 0, false, true);
@@ -296,6 +298,7 @@ std::string size_remedy(const Judged& analysis, double factor) {
 
 std::string size_remedy_of_fatigue(const Judged& analysis, const std::string& place, double factor,
                                    bool is_of_running) {
+  if (!(factor > 1)) return "";
   const auto& fatigue = *analysis.fatigue;
   for (const auto& weld : fatigue.welds)
     if (weld.name == place) return toe_remedy(analysis, place, factor, weld.angle_rad, true, is_of_running);
