@@ -263,9 +263,15 @@ ShownRows shown_details(const std::vector<Field>& fields, const Json& rows, std:
 void print_rows(std::ostream& out, const std::string& title, const ShownRows& rows,
                 const std::vector<std::vector<std::string>>& notes) {
   if (rows.cells.empty()) return;
+  out << '\n';
+  print_first_rows(out, title, rows, notes);
+}
+
+void print_first_rows(std::ostream& out, const std::string& title, const ShownRows& rows,
+                      const std::vector<std::vector<std::string>>& notes) {
+  if (rows.cells.empty()) return;
   auto titles = rows.titles;
   titles.front() = title;
-  out << '\n';
   std::vector<std::size_t> widths;
   std::vector<bool> to_the_right;
   for (std::size_t c = 0; c < titles.size(); ++c) {

@@ -39,12 +39,15 @@ ShownRows shown_named_rows(const std::string& title, const std::vector<Field>& f
 /// The second table: the first labelled field and the details; no cells without details.
 ShownRows shown_details(const std::vector<Field>& fields, const summary::Json& rows, std::size_t most);
 
-/// Prints rows on a terminal: texts to the left, numbers to the right; nothing without rows. A row with more
-/// or fewer cells than titles ends in a remark.
+/// Prints rows on a terminal below an empty line: texts to the left, numbers to the right; nothing without
+/// rows. A row with more or fewer cells than titles ends in a remark.
 /// @param title  over the first column, in place of its own
 /// @param notes  lines below each row; none: no lines
 void print_rows(std::ostream& out, const std::string& title, const ShownRows& rows,
                 const std::vector<std::vector<std::string>>& notes = {});
+/// The same at the top of an output, without the empty line.
+void print_first_rows(std::ostream& out, const std::string& title, const ShownRows& rows,
+                      const std::vector<std::vector<std::string>>& notes = {});
 
 /// Prints all fields of rows, those that summary.json leaves out too.
 template <typename Row>

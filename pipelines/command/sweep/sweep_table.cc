@@ -157,7 +157,7 @@ void print_points(std::ostream& out, const SweepPlan& plan, const std::vector<Sw
       if (has_error[f]) add(figures[f] + ".error", "{:.2g}", one);
     }
   }
-  print_rows(out, "point", table);
+  print_first_rows(out, "point", table);
   if (rows.size() > most_lines) out << fmt::format("  ... {} more in sweep.csv\n", rows.size() - most_lines);
 }
 

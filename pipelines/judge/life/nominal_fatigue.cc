@@ -21,7 +21,12 @@ double middle(const ArrayXd& values) {
   return (values.maxCoeff() + values.minCoeff()) / 2;
 }
 
-/// The section of that segment nearest to a place.
+bool is_din_fillet(const meshes::Shaft& shaft, std::size_t i) {
+  return shaft.fillets_m[i] > 0 && !(shaft.segments[i].bore_m > 0) && !(shaft.segments[i + 1].bore_m > 0);
+}
+
+}  // namespace
+
 const SectionResult* nearest_section(const Diagrams& diagrams, const std::string& segment, double z_m) {
   const SectionResult* nearest = nullptr;
   for (const auto& section : diagrams.sections)
@@ -30,12 +35,6 @@ const SectionResult* nearest_section(const Diagrams& diagrams, const std::string
       nearest = &section;
   return nearest;
 }
-
-bool is_din_fillet(const meshes::Shaft& shaft, std::size_t i) {
-  return shaft.fillets_m[i] > 0 && !(shaft.segments[i].bore_m > 0) && !(shaft.segments[i + 1].bore_m > 0);
-}
-
-}  // namespace
 
 bool is_din_steel(const GroupConstants& group) {
   return !group.is_cast && group.group != MaterialGroup::wrought_aluminium;

@@ -32,6 +32,9 @@ struct LocalAmplitude {
   double error_share = std::numeric_limits<double>::infinity();
 };
 
+/// The section of a segment nearest to a place; null: the segment has none.
+const SectionResult* nearest_section(const Diagrams& diagrams, const std::string& segment, double z_m);
+
 /// Nominal stresses of a solid round section over the cycle, from its resultants by statics about its own
 /// axis. The amplitude of bending is that in the direction in which it changes most. Its mean is the vector
 /// of the middles in two directions at right angles, the largest for any such pair: static bending counts

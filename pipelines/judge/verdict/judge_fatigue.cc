@@ -11,6 +11,7 @@
 #include "pipelines/judge/texts/life_text.h"
 #include "pipelines/judge/texts/zone_text.h"
 #include "pipelines/judge/verdict/findings.h"
+#include "pipelines/judge/verdict/size_remedy.h"
 
 namespace pipelines {
 namespace {
@@ -25,6 +26,7 @@ struct Used {
   const LifeCertainty* certainty = nullptr;
   double range_Pa = 0;  ///< range of the largest cycle: twice the amplitude
   std::string brought_by;
+  bool over_blocks = false;
 };
 
 /// @param shares  empty where nothing changes
@@ -54,7 +56,7 @@ std::vector<Used> over_blocks(const DutyResult& duty, const std::string& body,
     for (const auto& block : place.blocks)
       amplitude_Pa = std::max({amplitude_Pa, block.amplitude_Pa, block.start_amplitude_Pa});
     all.push_back({place.feature, place.is_weld, place.life_s, place.life_safety, place.error_share,
-                   &place.certainty, 2 * amplitude_Pa, brought_by(effects, place.effect_share)});
+                   &place.certainty, 2 * amplitude_Pa, brought_by(effects, place.effect_share), true});
   }
   return all;
 }
@@ -75,9 +77,10 @@ Judgement judgement_of(const Used& used) {
   return weigh(*used.life_safety, least_safety(*used.life_safety, used.error_share));
 }
 
-std::string remedy_of_life(const Used& used, double least) {
+std::string remedy_of_life(const Judged& analysis, const Used& used, double least) {
   auto text = fmt::format("the range of {} MPa has to come down by a factor {:.2f}",
                           fixed(used.range_Pa / 1e6, 1), 1 / least);
+  text += size_remedy_of_fatigue(analysis, used.place, 1 / least, !used.over_blocks);
   if (!used.brought_by.empty()) text += "; it comes from " + used.brought_by;
   return text;
 }
@@ -106,7 +109,8 @@ Finding finding_of(const Judged& analysis, const Used& used) {
     finding.figure += fmt::format(", stress may be {:.2f} times as large ({})", *used.life_safety,
                                   finding.least_margin ? fmt::format("{:.2f}", *finding.least_margin) : "-");
   if (finding.judgement == Judgement::not_ok)
-    finding.remedy = remedy_of_life(used, std::min(1.0, finding.least_margin.value_or(*finding.margin)));
+    finding.remedy =
+        remedy_of_life(analysis, used, std::min(1.0, finding.least_margin.value_or(*finding.margin)));
   else if (finding.judgement == Judgement::not_judged)
     finding.remedy = remedy_of_open(analysis, used.error_share);
   return finding;

@@ -10,6 +10,7 @@
 #include "pipelines/judge/life/duty_result.h"
 #include "pipelines/judge/stages/start_up_stress.h"
 #include "pipelines/judge/verdict/findings.h"
+#include "pipelines/judge/verdict/size_remedy.h"
 
 namespace pipelines {
 namespace {
@@ -72,9 +73,11 @@ Finding finding_of(const RunReport& report, const Judged& analysis, const Stress
   finding.figure = fmt::format("safety {} ({}) of {:g} wanted, {} MPa", fixed(safety, 2),
                                finding.least_margin ? fixed(*finding.least_margin * wanted, 2) : "-", wanted,
                                with_error(stress.value_Pa, stress.error_share * stress.value_Pa));
-  if (finding.judgement == Judgement::not_ok)
-    finding.remedy = remedy_of_yield(yield_Pa, finding.least_margin.value_or(*finding.margin));
-  else if (finding.judgement == Judgement::not_judged)
+  if (finding.judgement == Judgement::not_ok) {
+    const double least = finding.least_margin.value_or(*finding.margin);
+    finding.remedy = remedy_of_yield(yield_Pa, least);
+    if (stress.when.empty()) finding.remedy += size_remedy(analysis, 1 / least);
+  } else if (finding.judgement == Judgement::not_judged)
     finding.remedy = remedy_of_open(analysis, stress.error_share);
   return finding;
 }

@@ -44,8 +44,7 @@ FieldTable<BearingResult> bearing_fields() {
             const auto& turns = row.at("L10");
             return turns.is_number() ? fmt::format("{:.3g}", turns.get<double>()) : "unloaded";
           }),
-      Field("L10h", as_figure(quantities::hours), "the same in hours of operation; null: never loaded",
-            "L10h",
+      Field("L10h", as_figure(quantities::hours), "the same in hours of operation; null: never loaded", "L10",
             [](const BearingResult& b) { return b.life ? figure(b.life->hours, "h") : Json(nullptr); })
           .digits("{:.5g}"),
   });

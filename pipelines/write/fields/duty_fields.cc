@@ -169,7 +169,7 @@ FieldTable<DutyBearing> duty_bearing_fields() {
   return without_csv<DutyBearing>({
       {"equivalent_load", as_figure(quantities::force), "by turns: (sum n P^p / sum n)^(1/p)",
        "equivalent load", [](const auto& b) { return summary::figure(b.equivalent_load_N, "N"); }},
-      Field("L10h", as_figure(quantities::hours), "in operation; null: never loaded", "L10h",
+      Field("L10h", as_figure(quantities::hours), "in operation; null: never loaded", "L10",
             [](const auto& b) { return hours_figure(b.life_h); })
           .digits("{:.5g}"),
       Field("modified_life", as_figure(quantities::hours), "likewise, of ISO 281; null: not asked for",

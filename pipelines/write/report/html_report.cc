@@ -298,10 +298,10 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory,
                              with_spaces(input.at("machine").get<std::string>()), window_of(input),
                              input.at("scene").get<std::string>(), input.at("hash").get<std::string>(),
                              summary.at("program").at("version").get<std::string>()));
+  add_verdict(page, summary);
   if (input.contains("settings"))
     for (const auto& setting : input.at("settings"))
       page.paragraph("Set on the command line: " + setting.get<std::string>());
-  add_verdict(page, summary);
   page.folded(fmt::format("Warnings ({})", summary.at("warnings").size()), [&] {
     for (const auto& warning : summary.at("warnings")) page.warning(warning.get<std::string>());
   });

@@ -256,7 +256,6 @@ TEST(Sweeps, PrintErrorsBesideTheirFigures) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::istringstream lines(outcome.out);
   std::string title, first;
-  lines >> std::ws;  // a line above the table
   std::getline(lines, title);
   std::getline(lines, first);
   EXPECT_TRUE(
