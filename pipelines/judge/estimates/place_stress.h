@@ -23,6 +23,8 @@ struct PlaceStress {
   std::array<double, 3> position_m{};
   bool is_resolved = false;   ///< the error is that of submodels: no margin to give away
   double least_error_Pa = 0;  ///< for want of cells, however well coarse meshes agree
+  /// A fillet that was meshed with cells_that_converge: one mesh tells its error.
+  bool has_fine_cells = false;
 };
 
 inline constexpr const char* inside_the_body = "inside";

@@ -201,19 +201,25 @@ double arc_at(const Responded& analysis, const meshes::TorusChart& torus, std::s
   return largest_rad;
 }
 
+/// Cells on a fillet's quarter before any was cut; 0: the feature is no fillet.
+int cells_meshed(const BodyScene& body, const std::string& feature) {
+  const auto names = fillets_of(body);
+  const auto fillet = std::find(names.begin(), names.end(), feature);
+  return fillet == names.end() ? 0 : body.shaft()->mesh.cells_at(int(fillet - names.begin()));
+}
+
 }  // namespace
 
 int cells_on_quarter(const Responded& analysis, const PlaceStress& place) {
-  const auto names = fillets_of(analysis.scene);
-  const auto fillet = std::find(names.begin(), names.end(), place.feature);
-  if (fillet == names.end()) return 0;
+  const int meshed = cells_meshed(analysis.scene, place.feature);
+  if (meshed == 0) return 0;
   if (!analysis.scene.refinements.empty())
     for (const auto& feature : analysis.mesh.features)
       for (const auto& torus : analysis.mesh.tori)
         if (feature.name == place.feature && torus.boundary_id == feature.boundary_id)
           if (const double arc_rad = arc_at(analysis, torus, place.node); arc_rad > 0)
             return std::max(1, int(std::lround(pi / 2 / arc_rad)));
-  return analysis.scene.shaft()->mesh.cells_at(int(fillet - names.begin()));
+  return meshed;
 }
 
 std::vector<PlaceStress> places_of_one_mesh(const Judged& analysis, double submodels_s) {
@@ -233,6 +239,7 @@ std::vector<PlaceStress> places_of_one_mesh(const Judged& analysis, double submo
       const double wanting_Pa = for_want_of_cells(analysis, cells) * place.value_Pa;
       place.error_Pa = std::max(place.error_Pa, wanting_Pa);
       if (cells < cells_that_converge) place.least_error_Pa = wanting_Pa;
+      place.has_fine_cells = cells_meshed(analysis.scene, place.feature) >= cells_that_converge;
     } else if (of_blocks && is_bore(analysis.mesh, place.feature)) {
       place.error_Pa *= safety_of_few_rows;
     }

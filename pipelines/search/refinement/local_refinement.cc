@@ -188,11 +188,16 @@ std::vector<const HotSpotStress*> coarse_toes(const Judged& analysis,
   return toes;
 }
 
-/// Whether nodes are the mirror images of others, one by one.
+/// Whether nodes are the mirror images of others, in any order: those of a cell have another one in its
+/// image.
 bool are_images(const fem::MirrorImages& images, const std::vector<std::size_t>& nodes,
-                const std::vector<std::size_t>& others) {
-  return !images.node.empty() && std::equal(nodes.begin(), nodes.end(), others.begin(), others.end(),
-                                            [&](auto a, auto b) { return std::size_t(images.node[a]) == b; });
+                std::vector<std::size_t> others) {
+  if (images.node.empty()) return false;
+  std::vector<std::size_t> mirrored;
+  for (const auto node : nodes) mirrored.push_back(std::size_t(images.node[node]));
+  std::sort(mirrored.begin(), mirrored.end());
+  std::sort(others.begin(), others.end());
+  return mirrored == others;
 }
 
 /// Places that are mirror images of each other share a goal.

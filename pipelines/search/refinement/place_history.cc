@@ -99,8 +99,8 @@ double PlaceHistory::from_changes(const Record& record) const {
   const double kept = !all_varied || record.now.is_resolved   ? 1
                       : record.n_changes > int(parts_.size()) ? trust.kept_after_more
                                                               : trust.kept_after_one;
-  const bool is_compared = record.n_changes > 0 || record.now.is_resolved;
-  const double open_Pa = is_compared ? 0 : trust.open_on_one_mesh * record.now.value_Pa;
+  const bool is_known = record.n_changes > 0 || record.now.is_resolved || record.now.has_fine_cells;
+  const double open_Pa = is_known ? 0 : trust.open_on_one_mesh * record.now.value_Pa;
   return std::max({missing_Pa(record), kept * record.now.error_Pa, record.now.least_error_Pa, open_Pa});
 }
 

@@ -50,7 +50,7 @@ struct TrustInMeshes {
   /// and after more.
   double kept_after_one = 0.1, kept_after_more = 0.1;
   /// The share of a stress that is open at least where no finer mesh has been compared: cells may be too
-  /// large to show that they miss something.
+  /// large to show that they miss something. Fillets of fine cells (PlaceStress) are known without.
   double open_on_one_mesh = 0;
 };
 
@@ -71,7 +71,8 @@ public:
   /// - from changes: for each part |change| / (ratio^order - 1), added up, times 1.25 (Roache's safety factor
   ///   for series of meshes). The order is the step's on fillets and 1 elsewhere: ends of loads and of
   ///   exclusion distances. While a part has not been varied, at least what the mesh tells by itself, before
-  ///   the first change at least the share of the stress that is open on one mesh; later at least the kept
+  ///   the first change, but on fillets of fine cells, at least the share of the stress that is open on one
+  ///   mesh; later at least the kept
   ///   share of what the mesh tells. Away from fillets, the fillets beside the place are a part as well:
   ///   their rows of cells run through to it.
   /// - from a second model of the same problem: at least the difference, at most that with the model's error;

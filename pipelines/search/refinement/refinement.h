@@ -25,7 +25,8 @@ std::vector<MeshPart> mesh_parts(const BodyScene& body);
 /// cells differ by after one change, half of that after more; both without the safety factor of 3. Of a
 /// shaft's that is refined locally the same, since two meshes with 90 MPa stood beside 92.7. And a shaft's
 /// first mesh leaves 12 % open: near the end of one that spins it had 17.7 +- 0.8 MPa, 19.3 is right,
-/// and 16.6 +- 0.9 on the end, 14.9 is right.
+/// and 16.6 +- 0.9 on the end, 14.9 is right. But not on fillets of fine cells (tests/evidence/promises.md,
+/// first meshes).
 TrustInMeshes trust_in_meshes(const BodyScene& body);
 
 /// Meshes that a search may begin with, the first one that the mesher takes: shafts with 2 cells on every

@@ -210,6 +210,17 @@ TEST(PlaceHistory, OneMeshAloneIsNotBelieved) {
   EXPECT_NEAR(error_of(history.judged(), "end"), 0.1 + 0.05, 1e-12);
 }
 
+// On the first meshes of 50 shafts what single cells tell bounded the error of every fillet of eight cells on
+// the quarter, but not of the ends of shafts that spin.
+TEST(PlaceHistory, OneMeshOfFineCellsIsBelieved) {
+  PlaceHistory history({MeshPart::local}, {1.0 / 3, 1.0 / 6, 0.12});
+  auto fine = place("fillet a/b", 104.9, 4.7), coarse = place("fillet b/c", 80, 4.7);
+  fine.has_fine_cells = true;
+  history.add({fine, coarse}, std::nullopt);
+  EXPECT_NEAR(error_of(history.judged(), "fillet a/b"), 4.7, 1e-12);
+  EXPECT_NEAR(error_of(history.judged(), "fillet b/c"), 0.12 * 80, 1e-12);
+}
+
 // The same problem solved in another way: the difference is an error of one of the two.
 TEST(PlaceHistory, ASecondModelOfTheSameProblemBoundsTheErrorFromBothSides) {
   PlaceHistory history(parts_of_a_shaft);
