@@ -15,6 +15,7 @@
 #include "pipelines/scene/reader/why_not.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
 #include "pipelines/search/cheap_models/nodes_at_maxima.h"
+#include "pipelines/search/cheap_models/section_changes.h"
 #include "pipelines/search/cheap_models/torsion_by_feature.h"
 
 namespace pipelines {
@@ -25,15 +26,9 @@ namespace {
 constexpr double size_on_fillet = 0.5, size_at_seat = 0.25, size_at_sharp_edge = 0.25;
 constexpr double size_of_more = 0.1;  // of the radius, at the largest stress of a place
 constexpr double first_growth = 1.5;  // of cells with the distance from a fine circle
-/// Every cell of a section is halved in the next one, so that a place's change from section to section falls
-/// by its order. What is missing of the last value is the rest of that geometric series, times a safety.
-/// Ratios of two changes count between a least one, third order (that of the stress of cubic cells), and
-/// somewhat less than first order, as beside the end of a load or at a seam. A change may be small by chance:
-/// of the one before it a share counts still, and of the value another. The first section is coarse: where
-/// its change is the one before, less of an order is believed. From two sections alone none is known.
-constexpr double least_ratio = 1.0 / 8, least_ratio_from_first = 1.0 / 4, most_ratio = 0.6, safety = 2;
-constexpr double hidden_share = 1.0 / 24, hidden_share_from_first = 1.0 / 6, least_share = 1e-4;
-constexpr double safety_of_two = 1.5, least_share_of_two = 0.002;
+/// A fillet's largest stress that is nearer to an end of the arc than this share of the radius may be that of
+/// the seat or shoulder there.
+constexpr double beside_end = 0.1;
 
 void add(std::vector<fem::FineCircle>& circles, double z_m, double r_m, double size_m) {
   const auto same = std::find_if(circles.begin(), circles.end(), [&](const auto& c) {
@@ -91,18 +86,23 @@ std::vector<fem::FineCircle> first_circles(const fem::MeridianBody& section, con
   return circles;
 }
 
-/// What is missing of the last of these values.
-double missing_Pa(const std::vector<double>& values) {
-  const std::size_t n = values.size();
-  if (n < 2) return values.back();
-  const double last = std::abs(values[n - 1] - values[n - 2]);
-  if (n < 3) return std::max(safety_of_two * last, least_share_of_two * values.back());
-  const double before = std::abs(values[n - 2] - values[n - 3]);
-  const bool from_first = n == 3;
-  const double least = from_first ? least_ratio_from_first : least_ratio,
-               hidden = from_first ? hidden_share_from_first : hidden_share;
-  const double ratio = before > 0 ? std::clamp(last / before, least, most_ratio) : most_ratio;
-  return std::max({safety * last * ratio / (1 - ratio), hidden * before, least_share * values.back()});
+Surroundings surroundings(const fem::MeridianBody& section, const meshes::BodyMesh& mesh,
+                          const PlaceStress& place) {
+  const double z_m = place.position_m[2], r_m = std::hypot(place.position_m[0], place.position_m[1]);
+  for (const auto& feature : mesh.features)
+    for (const auto& torus : section.tori) {
+      if (feature.name != place.feature || feature.boundary_id != torus.boundary_id) continue;
+      std::map<int, int> n_edges;  // by point: one at the ends of the arc
+      for (const auto& edge : section.edges)
+        if (edge.boundary_id == torus.boundary_id)
+          for (const int end : edge.ends) ++n_edges[end];
+      const bool is_at_end = std::any_of(n_edges.begin(), n_edges.end(), [&](const auto& point) {
+        const auto& p = section.points_m[std::size_t(point.first)];
+        return point.second == 1 && std::hypot(z_m - p[0], r_m - p[1]) <= beside_end * torus.radius_m;
+      });
+      return is_at_end ? Surroundings::any : Surroundings::inside_fillet;
+    }
+  return Surroundings::any;
 }
 
 /// Torsional stress on one section alone: the largest error of 53 twisted shafts was 0.31 %, but for what
@@ -180,7 +180,7 @@ void AxisymmetricRefinement::learn(AxisymmetricStep& step) {
   for (auto& place : step.places) {
     auto& values = values_Pa_[place.feature];
     values.push_back(place.value_Pa);
-    place.error_Pa = missing_Pa(values);
+    place.error_Pa = missing_Pa(values, surroundings(section_, meshed_->mesh, place));
     place.error_Pa += place.feature == inside_the_body
                           ? unseen_inside * place.value_Pa
                           : rise_to_border_Pa({nodes, von_mises_Pa, step.node_places, meshed_->mesh}, place);
@@ -194,8 +194,8 @@ void AxisymmetricRefinement::learn_torsion(AxisymmetricStep& step) {
     if (now.value_Pa == 0) continue;  // not twisted, or no ring of it is outside what is left out
     auto& values_Pa = torsion_Pa_[feature];
     values_Pa.push_back(now.value_Pa);
-    const double error_Pa =
-        now.rise_Pa + (values_Pa.size() < 2 ? error_of_one_section * now.value_Pa : missing_Pa(values_Pa));
+    const double error_Pa = now.rise_Pa + (values_Pa.size() < 2 ? error_of_one_section * now.value_Pa
+                                                                : missing_Pa(values_Pa, Surroundings::any));
     most_Pa = std::max(most_Pa, now.value_Pa + error_Pa);
     if (now.value_Pa < step.torsion.value_Pa) continue;
     step.torsion.value_Pa = now.value_Pa;

@@ -31,7 +31,7 @@ struct AxisymmetricStep {
 /// loaded seats and sharp edges; where a place holds the accuracy back there is one more fine circle at its
 /// largest stress from the third on. A place that no cut reaches would stand still and seem to be known.
 /// Stress at the ends of loaded zones converges with first order, elsewhere with third; which one a place
-/// shows from the third step on says what its last value misses.
+/// shows from the third step on says what its last value misses (section_changes.h).
 class AxisymmetricRefinement {
 public:
   /// References have to outlive this object.
@@ -43,6 +43,8 @@ public:
 
   /// Whether no place with its error exceeds the largest stress by more than that share.
   static bool is_met(const AxisymmetricStep& step, double target);
+  /// Values on the sections so far, by feature.
+  const std::map<std::string, std::vector<double>>& values_Pa() const { return values_Pa_; }
   /// The next would have millions of unknowns.
   static constexpr int most_steps = 4;
 

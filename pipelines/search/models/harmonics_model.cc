@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "fem/models/beam/beam_responses.h"
@@ -51,6 +52,27 @@ void enter_model_errors(Judged& analysis) {
         {"offset_axis", "bending and torsion by the offset of eccentric segments' axes", offset_Pa});
 }
 
+/// Harmonics of pressures that the first section is solved with to see what those left out bring: so many,
+/// and so many times the present ones. Above 24 the bound is 0.02 % of the largest stress beside a seat's
+/// end.
+constexpr int many_harmonics = 24, times_as_many = 2, most_harmonics = 64;
+/// For what a coarse section may have wrong of that; the share of the tolerance from which a bound is worth
+/// it.
+constexpr double safety_of_tail = 1.5, worth_a_section = 0.1;
+
+/// Nothing where there are no more to be had.
+std::optional<Scene> with_many_harmonics(Scene scene, std::size_t index) {
+  auto& body = scene.bodies[index];
+  int highest = body.pressure_harmonics;
+  for (const auto& [port, pressure] : body.pressures) highest = std::max(highest, pressure.highest_harmonic);
+  const int more = std::min(most_harmonics, std::max(many_harmonics, times_as_many * highest)) - highest;
+  if (more <= 0) return std::nullopt;
+  body.pressure_harmonics += more;
+  for (auto& [port, pressure] : body.pressures) pressure.highest_harmonic += more;
+  body.felt_seats.clear();
+  return scene;
+}
+
 MeshedBody with_own_sections(const BodyScene& body, MeshedBody meshed) {
   meshed.mesh.sections = describe_revolved(body).mesh.sections;
   return meshed;
@@ -90,12 +112,53 @@ Judged HarmonicsModel::solve() {
   auto by_harmonics = responded(body(), series_->meshed, body_loads(), std::move(step.responses));
   by_harmonics.method = Method::axisymmetric;
   by_harmonics.solve_s = series_->seconds;
-  return judged(std::move(by_harmonics), series_->meshed, std::move(step.envelope));
+  auto solved = judged(std::move(by_harmonics), series_->meshed, std::move(step.envelope));
+  tail_Pa_ = solved_tail_Pa(solved);
+  return solved;
+}
+
+std::optional<double> HarmonicsModel::solved_tail_Pa(const Judged& solved) const {
+  const auto leading = std::max_element(places_.begin(), places_.end(),
+                                        [](const auto& a, const auto& b) { return a.value_Pa < b.value_Pa; });
+  const double bound_Pa = solved.peak.errors.of("pressure_harmonics");
+  if (!is_section_fine_ || leading == places_.end() || bound_Pa <= leading->error_Pa ||
+      bound_Pa <= worth_a_section * run_.tolerance * leading->value_Pa)
+    return std::nullopt;
+  const auto scene = with_many_harmonics(loaded_.scene, run_.index);
+  if (!scene) return std::nullopt;
+
+  const auto loaded = loaded_with(*scene, MeshedBody(meshed()));
+  const auto& loads = loaded.body_loads[run_.index];
+  MeshedBody without_sections = series_->meshed;
+  without_sections.mesh.sections.clear();
+  AxisymmetricRefinement refinement(body(), without_sections, loads, run_.options.n_threads);
+  const auto step = refinement.next(clock());
+  std::map<std::string, double> more_Pa;
+  for (const auto& place : step.places) more_Pa[place.feature] = place.value_Pa;
+  double largest_Pa = 0;
+  for (const auto& place : places_) {
+    const auto more = more_Pa.find(place.feature);
+    if (more == more_Pa.end()) continue;
+    const double change_Pa = more->second - series_->refinement.values_Pa().at(place.feature).front();
+    largest_Pa = std::max(largest_Pa, place.value_Pa + change_Pa);
+  }
+  const StressPoint there{{{step.peak().node, 1.0}}, step.envelope.von_mises.instant[step.peak().node]};
+  const double rest_Pa =
+      self_estimate(there, step.responses, loads, body().material, 0).of("pressure_harmonics");
+  return std::min(bound_Pa, safety_of_tail * std::abs(largest_Pa - leading->value_Pa) + rest_Pa);
+}
+
+void HarmonicsModel::enter_errors(Judged& analysis) const {
+  enter_model_errors(analysis);
+  if (tail_Pa_)
+    analysis.peak.errors.set_numerical(
+        {"pressure_harmonics", "the first section with many more harmonics, and a bound of those above",
+         *tail_Pa_});
 }
 
 void HarmonicsModel::judge(Judged& solved) {
   take_place_errors(solved, places_, "change from the coarser section");
-  enter_model_errors(solved);
+  enter_errors(solved);
   if (solved.diagrams) solved.diagrams->by_harmonics = torsion_;
 }
 
@@ -114,7 +177,7 @@ Finer HarmonicsModel::finer(const Judged& judged, const Search& search) {
 
 Judged HarmonicsModel::again(Judged& before) {
   auto after = BodyModel::again(before);
-  enter_model_errors(after);
+  enter_errors(after);
   return after;
 }
 
