@@ -29,12 +29,13 @@ constexpr auto two_levels =
     "-fem_ksp_type cg -fem_pc_type mg "
     "-fem_mg_levels_ksp_type chebyshev -fem_mg_levels_ksp_max_it 4 "
     "-fem_mg_levels_pc_type bjacobi -fem_mg_levels_sub_pc_type icc -fem_mg_coarse_ksp_type preonly ";
-/// MUMPS on several ranks adds up in another order in each run: there every rank has the whole factor.
-constexpr auto coarse_factor =
-                   "-fem_mg_coarse_pc_type cholesky -fem_mg_coarse_pc_factor_mat_solver_type mumps",
-               coarse_factor_on_every_rank =
-                   "-fem_mg_coarse_pc_type redundant -fem_mg_coarse_redundant_pc_type cholesky "
-                   "-fem_mg_coarse_redundant_pc_factor_mat_solver_type mumps";
+constexpr auto on_one_rank = "-fem_mg_coarse_pc_type cholesky -fem_mg_coarse_pc_factor_mat_solver_type mumps";
+/// MUMPS on several ranks adds up in another order in each run: there every rank has the whole coarse factor.
+/// Incomplete factors of the ranks know nothing of each other, which a smoother of degree 5 makes up for.
+constexpr auto on_several_ranks =
+    "-fem_mg_levels_ksp_max_it 5 "
+    "-fem_mg_coarse_pc_type redundant -fem_mg_coarse_redundant_pc_type cholesky "
+    "-fem_mg_coarse_redundant_pc_factor_mat_solver_type mumps";
 
 /// To which what an iteration leaves is solved for. It is alike all over the body, where rounding of a factor
 /// goes with the stress: what is told has to hold where a twentieth of the largest stress is, too.
@@ -175,7 +176,7 @@ struct PetscSolver::Impl {
   Eigen::Index n_rows() const { return 3 * Eigen::Index(plan.own.size()); }
   std::string options() const {
     const bool is_alone = n_ranks(communicator()) == 1;
-    return std::string(two_levels) + (is_alone ? coarse_factor : coarse_factor_on_every_rank) +
+    return std::string(two_levels) + (is_alone ? on_one_rank : on_several_ranks) +
            petsc_options_of_user(prefix);
   }
 

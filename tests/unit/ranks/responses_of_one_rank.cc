@@ -87,7 +87,8 @@ struct Ranks : testing::Test {
     EXPECT_TRUE(one.solver.ranks.empty());
     EXPECT_LE(std::abs(several.solver.n_iterations - one.solver.n_iterations),
               1 + one.solver.n_iterations / 5)
-        << "incomplete factors of the ranks know nothing of each other";
+        << several.solver.n_iterations << " steps, " << one.solver.n_iterations
+        << " on one rank: incomplete factors of the ranks know nothing of each other";
     EXPECT_LT(difference(displacement(several), one.displacement_m, loads.size(), 3), same_answer);
     EXPECT_LT(difference(stress(several), one.stress_Pa, loads.size(), 6), same_answer);
     EXPECT_LT(several.residual, 1e-8);  // as one rank must have it

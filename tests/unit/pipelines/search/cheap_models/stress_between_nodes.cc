@@ -156,11 +156,11 @@ yield_strength = "305 MPa"
 }
 
 // The names change where the section has its points, not the stress at mid-span; the parabola through
-// three points leaves 1.2e-4 of it on a section that is known to 1 %, less on one that is known to 0.2 %.
+// three points leaves 1.2e-4 of it on a section that is known to 0.2 %, less on the next one.
 TEST(NodesAtMaxima, NoPlaceKnowsWhereTheSectionHasItsPoints) {
   const auto largest = [](double division_mm) {
     double largest_Pa = 0;
-    for (const auto& place : LoadedShaft(bent_by_inertia(division_mm)).stresses(0.002).places)
+    for (const auto& place : LoadedShaft(bent_by_inertia(division_mm)).stresses(0.001).places)
       if (place.feature == "one" || place.feature == "two") largest_Pa = std::max(largest_Pa, place.value_Pa);
     return largest_Pa;
   };
