@@ -9,6 +9,8 @@
 #include <vtkObjectFactory.h>
 #include <vtkSmartPointer.h>
 
+#include <algorithm>
+
 #include "pipelines/base/common/process_limits.h"
 
 namespace pipelines {
@@ -65,6 +67,11 @@ public:
   bool IsCurrent() override { return context_.is_current(); }
   int SupportsOpenGL() override { return Initialized; }
   vtkTypeBool IsDirect() override { return 1; }
+  /// Pictures are drawn into buffers of their own; there is no screen's, which VTK 9.3 asks with a warning.
+  int GetColorBufferSizes(int* rgba) override {
+    std::fill_n(rgba, 4, 8);
+    return 4 * 8;
+  }
 
   /// GLEW finds the functions of OpenGL, then complains that there is no X11 display: that does no harm.
   void OpenGLInitContext() override {
