@@ -61,8 +61,9 @@ Extreme extreme(const Harmonics& X, const Harmonics& Y, double sign) {
   return best;
 }
 
-/// The harmonics of values at phi = 0, 90, 180 and 270 degrees, which have no higher harmonics; rounding of
-/// what cancels is none.
+/// The harmonics of values at phi = 0, 90, 180 and 270 degrees; rounding of what cancels is none. No effect
+/// but the belt has a harmonic above the first: the unit test PlanetaryHodograph holds every one of the table
+/// to it.
 Harmonics harmonics(const Eigen::Array4d& value) {
   const double least = 4 * std::numeric_limits<double>::epsilon() * value.abs().maxCoeff();
   const auto or_nothing = [&](double x) { return std::abs(x) > least ? x : 0; };

@@ -16,6 +16,7 @@
 #include "pipelines/judge/figures/stress_gradient.h"
 #include "pipelines/judge/life/body_fatigue.h"
 #include "pipelines/judge/verdict/local_laws.h"
+#include "pipelines/scene/values/effect_names.h"
 
 namespace pipelines {
 namespace {
@@ -52,7 +53,7 @@ double own_share(const Judged& analysis, const std::vector<double>& effect_share
   double sum = 0;
   const auto& effects = analysis.loads.history.effects;
   for (std::size_t e = 0; e < effects.size() && e < effect_share.size(); ++e)
-    for (const auto* own : {"drum_gravity", "drum_transport", "drum_spin"})
+    for (const auto* own : {effect_name::drum_gravity, effect_name::drum_transport, "drum_spin"})
       if (effects[e] == own) sum += effect_share[e];
   return std::clamp(sum, 0.0, 1.0);
 }
