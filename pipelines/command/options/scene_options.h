@@ -23,6 +23,9 @@ struct SceneOptions {
 
 constexpr int all_cores = 0;  ///< threads of a command without --threads
 
+/// The folder of the scenes that come with the program; empty: they are not where they should be.
+std::filesystem::path shipped_scenes();
+
 /// A subcommand with the scene, --set, -q and -v.
 CLI::App* add_scene_command(CLI::App& app, const char* name, const char* description, SceneOptions& options);
 
