@@ -235,7 +235,7 @@ fem::UnitResponses read(const Hdf5Reader& in) {
 /// @param n_handed_over  counts the arrays of nodes that other ranks have handed over
 void write_file(const std::filesystem::path& path, const std::string& key,
                 const fem::UnitResponses& responses, int& n_handed_over) {
-  AtomicFile file(path, is_own_kept_file);
+  AtomicFile file(path);
   Hdf5Writer out(file.temporary());
   out.attribute("/", "key", key);
   out.attribute("/", kept_attribute, arrangement);
