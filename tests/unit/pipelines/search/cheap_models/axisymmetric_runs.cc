@@ -145,7 +145,6 @@ TEST(AxisymmetricRun, PlacesAreThoseOfTheSolid) {
   auto& control = std::get<ShaftShape>(body.shape).mesh;
   control.cells_per_fillet_quarter = 4;
   control.n_sectors = 12;
-  const results_test::Directory at;
   const auto meshed = mesh_body(body, {});
   const auto loads = load_bodies(shaft.scene, {meshed}, shaft.clock).body_loads[0];
   const auto solid = by_solid(body, meshed, loads, shaft.clock);
@@ -314,7 +313,6 @@ TEST(AxisymmetricRun, TorsionOfACoarseSolidIsWithinItsError) {
     auto& control = std::get<ShaftShape>(body.shape).mesh;
     control.cells_per_fillet_quarter = 2;
     control.n_sectors = 8;
-    const results_test::Directory at;
     MeshedBody meshed;
     try {
       meshed = mesh_body(body, {});
