@@ -10,7 +10,8 @@ namespace fs = std::filesystem;
 /// Where scenes that come with the program lie, from the program's own place: installed, or in its build.
 constexpr const char* scene_folders[] = {"../share/millstress/scenes", "../pipelines/scenes"};
 
-/// A name without a folder and an ending that is no file here may be a scene that comes with the program.
+}  // namespace
+
 std::string file_of_scene(const std::string& scene) {
   std::error_code none;
   fs::path name(scene);
@@ -24,8 +25,6 @@ std::string file_of_scene(const std::string& scene) {
       return file.string();
   return scene;
 }
-
-}  // namespace
 
 Verbosity SceneOptions::verbosity() const {
   return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;

@@ -135,6 +135,7 @@ Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::ve
   Scene scene;
   scene.file = file;
   scene.settings = settings;
+  scene.keys = texts_by_key(tree);
   scene.title = root.text_or("title", file.stem().string(), "the name of the file");
   SceneTable machine = root.table("machine");
   const std::string type = machine.has("type") ? machine.text("type") : "";
