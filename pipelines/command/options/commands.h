@@ -89,6 +89,9 @@ void add_init_command(CLI::App& app, ChosenCommand& chosen);
 /// nothing.
 void add_check_command(CLI::App& app, ChosenCommand& chosen);
 
+/// `millstress cache`: what the user's cache holds; empties it.
+void add_cache_command(CLI::App& app, ChosenCommand& chosen);
+
 /// `millstress materials`: the library of materials that scenes name.
 void add_materials_command(CLI::App& app, ChosenCommand& chosen);
 

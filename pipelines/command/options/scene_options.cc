@@ -8,7 +8,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Where scenes that come with the program lie, from the program's own place: installed, or in its build.
-constexpr const char* scene_folders[] = {"../share/millstress/scenes", "../pipelines/scenes"};
+constexpr const char* scene_folders[] = {"../../share/millstress/scenes", "../pipelines/scenes"};
 
 }  // namespace
 
@@ -19,11 +19,16 @@ std::string file_of_scene(const std::string& scene) {
       fs::exists(fs::symlink_status(name, none)))
     return scene;
   name += ".toml";
+  const auto file = shipped_scenes() / name;
+  return fs::is_regular_file(file, none) ? file.string() : scene;
+}
+
+fs::path shipped_scenes() {
+  std::error_code none;
   const auto program = fs::read_symlink("/proc/self/exe", none).parent_path();
   for (const auto* folder : scene_folders)
-    if (const auto file = (program / folder / name).lexically_normal(); fs::is_regular_file(file, none))
-      return file.string();
-  return scene;
+    if (auto scenes = (program / folder).lexically_normal(); fs::is_directory(scenes, none)) return scenes;
+  return {};
 }
 
 Verbosity SceneOptions::verbosity() const {

@@ -1,7 +1,6 @@
 /// What the stage `respond` knows of a body: its mesh, its loads, and the unit responses to them.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,12 +11,11 @@
 
 namespace pipelines {
 
-/// Where a run keeps the files of a body and what it may use.
+/// What the work on a body may use.
 struct RunOptions {
-  std::filesystem::path directory;  ///< of this body
-  int n_threads = 0;                ///< 0: all cores
-  bool fresh = false;               ///< do not reuse unit responses of an earlier run
-  bool keep_factor = false;         ///< a search refines locally: for its goals, and instead of submodels
+  int n_threads = 0;         ///< 0: all cores
+  bool fresh = false;        ///< do not reuse unit responses of an earlier run
+  bool keep_factor = false;  ///< a search refines locally: for its goals, and instead of submodels
 };
 
 struct Responded {

@@ -175,6 +175,7 @@ Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::ve
   scene.defaults = std::move(findings.defaults);
   scene.warnings = std::move(findings.warnings);
   scene.known_keys.assign(findings.keys.begin(), findings.keys.end());
+  scene.key_forms = std::move(findings.forms);
   for (auto& doubt : implausible(scene)) scene.warnings.push_back(std::move(doubt));
   return scene;
 }
