@@ -41,16 +41,17 @@ public:
   ChamberParts(LoadCollector& collector, const LoadedBody& body, const ChamberLoading& loading)
       : collector_(collector), body_(body), loading_(loading) {}
 
-  void structure(const std::string& effect, const AccelerationField& field) {
+  void structure(std::size_t effect, const AccelerationField& field) {
     collector_.accelerate(body_.region("structure"), effect, field);
     for (const auto& mass : loading_.structure) collector_.accelerate(mass, effect, field);
   }
-  void exciter(const std::string& effect, const AccelerationField& field) {
+  void exciter(std::size_t effect, const AccelerationField& field) {
     for (const auto& region : body_.regions)
       if (region.name == "exciter") collector_.accelerate(region, effect, field);
     for (const auto& mass : loading_.exciter) collector_.accelerate(mass, effect, field);
   }
-  void all(const std::string& effect, const AccelerationField& field) {
+  void all(const std::string& name, const AccelerationField& field) {
+    const auto effect = collector_.effect(name);
     structure(effect, field);
     exciter(effect, field);
   }
@@ -100,8 +101,9 @@ void guide_by_feet(LoadCollector& collector, const LoadedBody& body, const Array
       if (port.name == foot(i + 1)) x[i] = port.axis_x_m;
   Array2Xd force = Array2Xd::Zero(2, couple_Nm.size());
   force.row(1) = (couple_Nm / (x[1] - x[0])).transpose();
-  collector.force(foot(2), pitch_guide, force);
-  collector.force(foot(1), pitch_guide, -force);
+  const auto guide = collector.effect(pitch_guide);
+  collector.force(foot(2), guide, force);
+  collector.force(foot(1), guide, -force);
 }
 
 /// Opposite forces on the first two feet make a couple only at a distance.
@@ -271,14 +273,13 @@ BodyLoads distribute_chamber(const kinetics::LoadHistory& loads, const kinetics:
   AccelerationField weight{Array3Xd::Zero(3, n), {}, {}}, inertia = weight;
   weight.translation_m_s2.row(1) = -mill.gravity_m_s2;
   inertia.translation_m_s2.topRows<2>() = inertial_translation(loads, mill.eccentricity_m);
-  if (contains(loading.effects, effect_name::gravity_structure))
-    parts.structure(effect_name::gravity_structure, weight);
-  if (contains(loading.effects, effect_name::gravity_exciter))
-    parts.exciter(effect_name::gravity_exciter, weight);
-  if (contains(loading.effects, effect_name::structure_inertia))
-    parts.structure(effect_name::structure_inertia, inertia);
-  if (contains(loading.effects, effect_name::exciter_inertia))
-    parts.exciter(effect_name::exciter_inertia, inertia);
+  const auto accelerate = [&](const char* name, auto part, const AccelerationField& field) {
+    if (contains(loading.effects, name)) (parts.*part)(collector.effect(name), field);
+  };
+  accelerate(effect_name::gravity_structure, &ChamberParts::structure, weight);
+  accelerate(effect_name::gravity_exciter, &ChamberParts::exciter, weight);
+  accelerate(effect_name::structure_inertia, &ChamberParts::structure, inertia);
+  accelerate(effect_name::exciter_inertia, &ChamberParts::exciter, inertia);
   if (contains(loading.effects, effect_name::pitch))
     parts.all(effect_name::pitch, {{}, -loads.quantity("theta_ddot").values, {}});
 

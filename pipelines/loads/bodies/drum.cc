@@ -95,8 +95,9 @@ BodyLoads distribute_drum(const kinetics::LoadHistory& loads, const kinetics::Pl
   enter("inner_wall", DrumKind::wall);
   enter("pulley", DrumKind::pulley);
 
-  const auto accelerate = [&](const std::string& effect, const AccelerationField& field) {
-    if (!contains(loading.effects, effect)) return;
+  const auto accelerate = [&](const std::string& name, const AccelerationField& field) {
+    if (!contains(loading.effects, name)) return;
+    const auto effect = collector.effect(name);
     collector.accelerate(body.region(), effect, field);
     for (const auto& mass : loading.attached) collector.accelerate(mass, effect, field);
   };
@@ -106,7 +107,7 @@ BodyLoads distribute_drum(const kinetics::LoadHistory& loads, const kinetics::Pl
              planetary::translation(turned(planetary::gravity(loads, mill.gravity_m_s2), psi)));
   accelerate(DrumKind::spin, {{}, {}, loads.quantity("drum_speed").values.square()});
 
-  std::map<std::string, Array2Xd> reaction;
+  std::map<std::size_t, Array2Xd> reaction;
   for (const auto& part : loads.resultant("trunnions").contributions)
     reaction[part.effect] = turned(part.load.topRows<2>(), psi);
   collector.react(DrumKind::trunnion_1, DrumKind::trunnion_2, reaction);

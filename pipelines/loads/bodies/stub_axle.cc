@@ -73,22 +73,23 @@ BodyLoads distribute_stub_axle(const kinetics::LoadHistory& loads, const kinetic
   const Array2Xd acceleration_of_gravity = planetary::gravity(loads, mill.gravity_m_s2),
                  acceleration_of_transport = planetary::transport(loads, mill);
   for (const auto& part : loads.resultant("axle").contributions) {
+    const std::string& effect = loads.effects[part.effect];
     Array2Xd share = part.load.topRows<2>() / 2;
-    if (part.effect == effect_name::belt) share += off_middle * part.load.topRows<2>();
-    if (part.effect == effect_name::drum_gravity)
+    if (effect == effect_name::belt) share += off_middle * part.load.topRows<2>();
+    if (effect == effect_name::drum_gravity)
       share += off_middle * options.pulley_mass_kg * acceleration_of_gravity;
-    if (part.effect == effect_name::drum_transport)
+    if (effect == effect_name::drum_transport)
       share += off_middle * options.pulley_mass_kg * acceleration_of_transport;
     collector.force(StubAxleKind::bearing, part.effect, share);
   }
   const double omega2 = mill.speed_rad_s * mill.speed_rad_s;
   if (contains(effects, StubAxleKind::weight))
-    collector.accelerate(body.region(), StubAxleKind::weight,
+    collector.accelerate(body.region(), collector.effect(StubAxleKind::weight),
                          planetary::translation(acceleration_of_gravity));
   if (contains(effects, StubAxleKind::transport)) {
     auto field = planetary::translation(acceleration_of_transport);
     field.spin_rad2_s2 = ArrayXd::Constant(loads.n_instants(), omega2);
-    collector.accelerate(body.region(), StubAxleKind::transport, field);
+    collector.accelerate(body.region(), collector.effect(StubAxleKind::transport), field);
   }
   collector.pressure(StubAxleKind::bearing);  // before the clamp: what it carries spreads over the whole face
   collector.react_force(StubAxleKind::clamp);

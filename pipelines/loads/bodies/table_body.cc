@@ -24,7 +24,7 @@ const char* const only_accelerations =
     "a force or moment on \"volume\": the body as a whole takes ax, ay, az and spin; name a port";
 
 /// One load beside the planar resultants, "<port>.<component>".
-void enter_table_load(LoadCollector& collector, const LoadedBody& body, const std::string& effect,
+void enter_table_load(LoadCollector& collector, const LoadedBody& body, std::size_t effect,
                       const kinetics::Quantity& load) {
   const auto dot = load.name.rfind('.');
   const std::string port = load.name.substr(0, dot), component = load.name.substr(dot + 1);
@@ -221,11 +221,11 @@ BodyLoads distribute_table_at(const Eigen::ArrayXd& phi_rad, const kinetics::Loa
   for (const auto& resultant : all.resultants)
     scale_N = std::max(scale_N, resultant.total.topRows<2>().abs().maxCoeff());
   LoadCollector collector(body, all.effects, all.n_instants(), scale_N);
-  for (const auto& effect : all.effects) {
-    const auto own = kinetics::loads_at(table, {effect}, grid, phi_rad);
+  for (std::size_t effect = 0; effect < all.effects.size(); ++effect) {
+    const auto own = kinetics::loads_at(table, {all.effects[effect]}, grid, phi_rad);
     for (const auto& resultant : own.resultants) {
       if (resultant.role == "volume")
-        throw StageRefused("the effect \"" + effect + "\": " + only_accelerations);
+        throw StageRefused("the effect \"" + all.effects[effect] + "\": " + only_accelerations);
       if (resultant.total.topRows<2>().abs().maxCoeff() > 0)
         collector.force(resultant.role, effect, resultant.total.topRows<2>());
       if (resultant.total.row(2).abs().maxCoeff() > 0)

@@ -261,19 +261,21 @@ BodyLoads distribute_train_shaft(const kinetics::LoadHistory& loads, double mean
 
   if (contains(effects, effect_name::shaft_inertia)) {
     const AccelerationField field{{}, -loads.quantity(options.inertia + ".acceleration").values, {}};
-    collector.accelerate(body.region(), effect_name::shaft_inertia, field);
-    for (const auto& mass : attached) collector.accelerate(mass, effect_name::shaft_inertia, field);
+    const auto effect = collector.effect(effect_name::shaft_inertia);
+    collector.accelerate(body.region(), effect, field);
+    for (const auto& mass : attached) collector.accelerate(mass, effect, field);
   }
 
   // Across and along: only what the scene asks for beyond torsion.
   const ArrayXd angle = mean_speed_rad_s * loads.time_s + loads.quantity(options.inertia + ".angle").values;
   for (const auto& force : options.forces) {
+    const auto effect = collector.effect(force.effect);
     Array2Xd across(2, n);
     for (Index d = 0; d < 2; ++d) across.row(d) = force.force_N[std::size_t(d)];
     if (!force.turns_with_shaft) across = turned(across, angle);
-    if (across.abs().maxCoeff() > 0) collector.force(force.port, force.effect, across);
+    if (across.abs().maxCoeff() > 0) collector.force(force.port, effect, across);
     if (force.force_N[2] != 0)
-      collector.axial_force(force.port, force.effect, ArrayXd::Constant(n, force.force_N[2]));
+      collector.axial_force(force.port, effect, ArrayXd::Constant(n, force.force_N[2]));
   }
   if (!options.forces.empty()) {
     // Axial forces are balanced first: off the axis of an eccentric port, one tilts the shaft, which the

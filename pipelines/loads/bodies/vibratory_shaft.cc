@@ -101,11 +101,8 @@ BodyLoads distribute_vibratory_shaft(const kinetics::LoadHistory& loads, const L
                        "\" has no closed loads for a shaft: analyse bodies under \"consistent\"");
   const Index n = loads.n_instants();
   const ArrayXd alpha = -loads.phi_rad;  // phi is clockwise
-  auto effects = loads.effects;
-  if (loading.own_weight) effects.push_back(VibratoryShaftKind::weight);
-  if (loading.own_inertia) effects.push_back(VibratoryShaftKind::inertia);
   const auto& frame = loads.resultant("frame_bearings");
-  LoadCollector collector(body, effects, n, frame.total.topRows<2>().abs().maxCoeff());
+  LoadCollector collector(body, loads.effects, n, frame.total.topRows<2>().abs().maxCoeff());
 
   // -B through the seat's own axis, no torque.
   for (const auto& part : loads.resultant("eccentric").contributions)
@@ -125,25 +122,29 @@ BodyLoads distribute_vibratory_shaft(const kinetics::LoadHistory& loads, const L
 
   // The body's own weight and inertia: d'Alembert accelerations; resultants and moments from the mesh.
   const auto& volume = body.region();
+  std::vector<std::size_t> own_effects;
   if (loading.own_weight) {
     Array2Xd fixed = Array2Xd::Zero(2, n);
     fixed.row(1) = -loading.gravity_m_s2;
     AccelerationField weight{Array3Xd::Zero(3, n), {}, {}};
     weight.translation_m_s2.topRows<2>() = turned(fixed, alpha);
-    collector.accelerate(volume, VibratoryShaftKind::weight, weight);
+    own_effects.push_back(collector.effect(VibratoryShaftKind::weight));
+    collector.accelerate(volume, own_effects.back(), weight);
   }
-  if (loading.own_inertia)
-    collector.accelerate(volume, VibratoryShaftKind::inertia,
+  if (loading.own_inertia) {
+    own_effects.push_back(collector.effect(VibratoryShaftKind::inertia));
+    collector.accelerate(volume, own_effects.back(),
                          {{}, loads.acceleration_rad_s2, loads.speed_rad_s.square()});
+  }
 
   // Bearings: the resultant reaction is the load stage's R_E less the body's own loads; where it acts follows
   // from the moments about bearing 1. The closure of forces then remains a check of the load stage, not an
   // assumption. The coupling takes the drive torque and the moment of the body's own loads about E.
-  std::map<std::string, Array2Xd> reaction;
+  std::map<std::size_t, Array2Xd> reaction;
   for (const auto& part : frame.contributions) reaction[part.effect] = turned(part.load.topRows<2>(), alpha);
   Array2Xd own_force = Array2Xd::Zero(2, n);
   ArrayXd own_torque = ArrayXd::Zero(n);  // counter-clockwise about E
-  for (const char* own : {VibratoryShaftKind::weight, VibratoryShaftKind::inertia}) {
+  for (const std::size_t own : own_effects) {
     const Wrench sum = collector.sum(own);
     if (!(sum.abs().maxCoeff() > 0)) continue;
     reaction[own] = -sum.topRows<2>();
