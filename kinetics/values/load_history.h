@@ -60,14 +60,6 @@ struct LoadHistory {
   std::vector<Quantity> quantities;
   std::vector<Resultant> resultants;
 
-  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
-  LoadHistory();
-  LoadHistory(const LoadHistory&);
-  LoadHistory(LoadHistory&&) noexcept;
-  LoadHistory& operator=(const LoadHistory&);
-  LoadHistory& operator=(LoadHistory&&) noexcept;
-  ~LoadHistory();
-
   /// @throws std::out_of_range naming the quantity if there is none of that name
   const Quantity& quantity(const std::string& name) const;
   /// @throws std::out_of_range naming the role if there is none of that name

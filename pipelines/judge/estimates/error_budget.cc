@@ -83,13 +83,6 @@ double discretisation_error(const StressPoint& point, const fem::UnitResponses& 
 
 }  // namespace
 
-ErrorBudget::ErrorBudget() = default;
-ErrorBudget::ErrorBudget(const ErrorBudget&) = default;
-ErrorBudget::ErrorBudget(ErrorBudget&&) noexcept = default;
-ErrorBudget& ErrorBudget::operator=(const ErrorBudget&) = default;
-ErrorBudget& ErrorBudget::operator=(ErrorBudget&&) noexcept = default;
-ErrorBudget::~ErrorBudget() = default;
-
 double ErrorBudget::numerical_Pa() const {
   return sum_of(numerical);
 }

@@ -39,13 +39,6 @@ PressureModel in_contact(PressureModel model, const meshes::Port& port, double p
 
 }  // namespace
 
-BodyLoads::BodyLoads() = default;
-BodyLoads::BodyLoads(const BodyLoads&) = default;
-BodyLoads::BodyLoads(BodyLoads&&) noexcept = default;
-BodyLoads& BodyLoads::operator=(const BodyLoads&) = default;
-BodyLoads& BodyLoads::operator=(BodyLoads&&) noexcept = default;
-BodyLoads::~BodyLoads() = default;
-
 Array2Xd turned(const Array2Xd& force, const ArrayXd& alpha_rad) {
   const auto c = alpha_rad.cos().transpose().eval(), s = alpha_rad.sin().transpose().eval();
   Array2Xd result(2, force.cols());

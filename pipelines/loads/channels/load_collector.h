@@ -57,14 +57,6 @@ struct BodyLoads {
   /// Moment that a named guide (`pitch_guide`) carries, counter-clockwise; empty: none.
   Eigen::ArrayXd carried_moment_Nm;
   double carried_moment_scale_Nm = 0;  ///< the sum of the moments' sizes that it is judged by
-
-  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
-  BodyLoads();
-  BodyLoads(const BodyLoads&);
-  BodyLoads(BodyLoads&&) noexcept;
-  BodyLoads& operator=(const BodyLoads&);
-  BodyLoads& operator=(BodyLoads&&) noexcept;
-  ~BodyLoads();
 };
 
 /// Rows fx, fy, fz [N], mx, my, mz [N m] about the origin; a column per instant.
