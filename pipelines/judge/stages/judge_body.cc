@@ -18,7 +18,7 @@
 namespace pipelines {
 namespace {
 
-Peak headline(const Judged& analysis) {
+Peak headline(const Superposed& analysis) {
   const auto& maximum = analysis.envelope.von_mises;
   Peak peak;
   peak.node = peak_node(maximum.value_Pa, analysis.places);

@@ -85,7 +85,7 @@ std::vector<double> factors_at(const Responded& analysis, std::int32_t instant) 
   return {column.begin(), column.end()};
 }
 
-Goal goal_at(const Superposed& analysis, const HotSpotStress& spot) {
+Goal goal_at(const Responded& analysis, const HotSpotStress& spot) {
   Goal goal{spot.name, {}, {factors_at(analysis, spot.instant), {}}, {}, true};
   const auto point = stress_point(spot);
   Stress stress{};
