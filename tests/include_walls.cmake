@@ -73,7 +73,7 @@ set(rooms_kinetics values series vibratory_effects vibratory planetary_effects p
 set(rooms_meshes values gmsh spacing checks shaft_layout shaft chamber solids keyed_shaft imported)
 set(rooms_pipelines
     base/common base/disk base/fatigue base/names base/files base/fields
-    scene/materials scene/values scene/whole scene/bodies scene/tables scene/reader scene/machines
+    scene/materials scene/values scene/whole scene/bodies scene/kinds scene/tables scene/reader scene/machines
     loads/channels loads/stage loads/bodies
     respond/responses
     superpose/kernels superpose/envelope superpose/between_instants
