@@ -81,7 +81,7 @@ set(rooms_pipelines
     search/cheap_models search/effect_choice search/refinement search/models search/loop
     write/drawing write/exports write/fields write/machines write/parts write/pictures write/report write/files
     study/effects study/variations study/accuracy study/sweep study/comparison
-    command/front command/calculix command/options command/check command/commands command/sweep)
+    command/front command/calculix command/options command/check command/commands command/study)
 foreach(folder fem kinetics meshes pipelines)
   set(above ${rooms_${folder}})
   foreach(room IN LISTS rooms_${folder})
