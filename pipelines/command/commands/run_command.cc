@@ -314,7 +314,8 @@ bool is_too_late_to_draw(const RequestedAccuracy& accuracy, std::chrono::steady_
 
 /// The unit responses of a body beside its results; a beam has none. On all ranks.
 void write_responses(const std::filesystem::path& place, const SceneRun& run, const Judged& analysis) {
-  if (const auto key = run.kept.keys.find(analysis.scene.name); key != run.kept.keys.end())
+  const auto key = run.kept.keys.find(analysis.scene.name);
+  if (key != run.kept.keys.end() && (is_first_rank() || analysis.responses.shared))
     write_unit_responses(place / responses_file_names().front(), key->second, analysis.responses);
 }
 

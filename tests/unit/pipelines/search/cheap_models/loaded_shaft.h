@@ -80,7 +80,7 @@ struct LoadedShaft {
   Judged beam() { return searched(Method::beam, 0); }
   Judged searched(Method method, double tolerance) {
     RunOfBody run;
-    run.options = {1};
+    run.options = {1, true};
     run.tolerance = tolerance;
     run.clock = &clock;
     run.load = [this](const Scene& next, std::vector<MeshedBody> meshed) {
