@@ -7,6 +7,7 @@
 #include <set>
 
 #include "fem/stress/cells/cell_stress_at_node.h"
+#include "pipelines/judge/estimates/fitted.h"
 #include "pipelines/judge/estimates/solved_pressure.h"
 #include "pipelines/judge/estimates/submodels.h"
 #include "pipelines/judge/estimates/tetrahedra_estimate.h"
