@@ -161,15 +161,16 @@ std::string table_of(const RunReport& content, const std::optional<TorsionReport
 }
 
 /// @param staged  null on ranks beside the first one, which make summary and table with it
+/// @param living  of the page
 /// @param record  but for its table; without a key: this run is not to be taken for a later one
 void finish_run(const Request& request, StagedResults* staged, const RunReport& content,
-                const std::optional<TorsionReport>& torsion, RunRecord record) {
+                const std::optional<TorsionReport>& torsion, RunRecord record, const LivingPage& living) {
   const auto summary = summary_json(content);
   record.table = table_of(content, torsion, print_report);
   record.full_table = table_of(content, torsion, print_full_report);
   if (staged == nullptr) return;
   write_text_file(staged->folder() / "summary.json", summary);
-  write_html_report(staged->folder(), request.directory / "accuracy");
+  write_html_report(staged->folder(), request.directory / "accuracy", living);
   if (!are_as_noted(noted_inputs())) record.key.clear();
   write_run_record(staged->folder(), record);
   staged->publish();
@@ -236,10 +237,14 @@ void run_load_stage(const Request& request, const Scene& given, StageClock& cloc
   clock.run("write",
             [&] { write_load_results(staged.folder(), loads, {}, threads(request.options.n_threads)); });
   const auto torsion = torsion_of(scene, scene.machine, staged.folder(), clock);
+  Loaded loaded;
+  loaded.scene = scene;
+  loaded.loads = loads;
+  const auto living = clock.run("page", [&] { return living_page(loaded, {}, 1); });
   finish_run(
       request, &staged,
       {scene, loads, {}, {}, clock.costs(), lives, duty ? &*duty : nullptr, torsion ? &*torsion : nullptr},
-      torsion, {request.key, {}, {}});
+      torsion, {request.key, {}, {}}, living);
 }
 
 /// The default's minute was up before its tolerance was met: told loudly, but no failure, since nobody asked.
@@ -372,10 +377,12 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   if (duty && staged) clock.run("write", [&] { write_duty(folder / "duty.csv", *duty); });
   const Scene reported = with_machine(run.loaded.scene, run.loaded.masses.machine);
   const auto torsion = torsion_of(reported, reported.machine, folder, clock);
+  const auto living =
+      clock.run("page", [&] { return living_page(run.loaded, run.analyses, threads(options.n_threads)); });
   finish_run(request, staged ? &*staged : nullptr,
              {reported, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings,
               duty ? &*duty : nullptr, torsion ? &*torsion : nullptr},
-             torsion, std::move(record));
+             torsion, std::move(record), living);
   wait_for_ranks();
   if (!run.met() && !accuracy.by_default)
     throw ToleranceNotMet("the tolerance is not met; the results are kept");
