@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <iostream>
 #include <optional>
-#include <regex>
 #include <set>
 #include <string>
 #include <utility>
@@ -19,9 +18,9 @@
 #include "pipelines/base/files/replaceable.h"
 #include "pipelines/command/options/option_value.h"
 #include "pipelines/command/options/result_place.h"
-#include "pipelines/command/sweep/sweep_charts.h"
-#include "pipelines/command/sweep/sweep_command_options.h"
-#include "pipelines/command/sweep/sweep_table.h"
+#include "pipelines/command/study/sweep_charts.h"
+#include "pipelines/command/study/sweep_command_options.h"
+#include "pipelines/command/study/sweep_table.h"
 #include "pipelines/respond/responses/respond.h"
 #include "pipelines/respond/responses/response_key.h"
 #include "pipelines/scene/reader/key_settings.h"
@@ -141,13 +140,9 @@ TomlNode tree_without_duty(const SweepCommandOptions& options) {
   return without_duty(std::move(tree));
 }
 
-/// All files of a sweep but its journal, which knows itself; kept files of its bodies too.
+/// All files of a sweep but its journal, which knows itself.
 OutputNames sweep_names() {
-  auto names = names_like(R"(sweep\.(csv|h5)|zones\.csv|(chart|map)(_[0-9]+)?\.(png|svg))");
-  return {[results = names.has](const std::string& name) { return results(name) || is_kept_file(name); },
-          [folders = std::regex("bodies(/[0-9]+(/[^/]+)?)?")](const std::string& folder) {
-            return std::regex_match(folder, folders);
-          }};
+  return names_like(R"(sweep\.(csv|h5)|zones\.csv|(chart|map)(_[0-9]+)?\.(png|svg))");
 }
 
 /// What the command line says that is swept, each as it is written there.
@@ -253,11 +248,8 @@ struct Sweep {
   Sweep(const Sweep&) = delete;  // the variant refers to it
   Sweep& operator=(const Sweep&) = delete;
 
-  /// @param at  the directory, as this rank writes to it
-  SweepOptions options(const SweepCommandOptions& asked, const std::filesystem::path& at, int n_threads,
-                       int rank) const {
-    return {asked.scene, tree,        settings,      at,      rank, n_threads,
-            loads_only,  asked.fresh, request.zones, accuracy};
+  SweepOptions options(const SweepCommandOptions& asked, int n_threads) const {
+    return {asked.scene, tree, settings, n_threads, loads_only, asked.fresh, request.zones, accuracy};
   }
 };
 
@@ -305,7 +297,7 @@ void sweep_beside_first_rank(const SweepCommandOptions& options) {
   work_on_bodies_alone();
   const Sweep sweep(options);
   const int n_threads = own_threads(options), rank = fem::this_rank(MPI_COMM_WORLD);
-  SweepRun run(sweep.options(options, sweep.directory, n_threads, rank), sweep.plan.points);
+  SweepRun run(sweep.options(options, n_threads), sweep.plan.points);
   run.keep_points(points_of_ranks(run)[std::size_t(rank)]);
   const fem::Environment environment(n_threads);
   fem::wait_for_all(MPI_COMM_WORLD);  // until the first one has begun the journal
@@ -325,7 +317,7 @@ std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep
   const auto& plan = sweep.plan;
   const int n_threads = own_threads(options), n_ranks = fem::n_ranks(MPI_COMM_WORLD);
   if (n_ranks > 1) work_on_bodies_alone();
-  SweepRun run(sweep.options(options, directory, n_threads, 0), plan.points);
+  SweepRun run(sweep.options(options, n_threads), plan.points);
   require_own(directory / "journal", SweepJournal::is_journal, "-o");
   if (!sweep.first.bodies.empty()) environment.emplace(n_threads);
 
@@ -360,6 +352,8 @@ std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep
   if (const auto n = run.n_improved_meshes() + others.n_improved_meshes(); n > 0)
     std::cerr << fmt::format("millstress: {} more mesh{} searched for points that the first knew less well\n",
                              n, n == 1 ? " was" : "es were");
+  if (const auto& faults = run.cache_faults(); !faults.empty())
+    std::cerr << "millstress: " << faults.front() << '\n';
   return rows;
 }
 

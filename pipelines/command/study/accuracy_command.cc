@@ -17,6 +17,7 @@
 #include "pipelines/study/accuracy/accuracy_chart.h"
 #include "pipelines/study/accuracy/accuracy_report.h"
 #include "pipelines/write/files/manifest.h"
+#include "pipelines/write/files/run_record.h"
 #include "pipelines/write/files/staged_results.h"
 
 namespace pipelines {
@@ -60,7 +61,8 @@ AccuracyOptions study_options_of(const AccuracyCommandOptions& options, const Sc
 }
 
 bool has_run(const std::filesystem::path& directory) {
-  return std::filesystem::exists(directory / "summary.json");
+  return std::filesystem::exists(directory / "summary.json") &&
+         !read_run_record(directory / run_record_name).is_report_alone;
 }
 
 /// The page of the run beside which the study stands, if there is one, with the study in it.
@@ -98,8 +100,6 @@ void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
     const auto& name = scene.bodies[i].name;
     if (!options.body.empty() && name != options.body) continue;
     StagedResults staged(directory, names_of(names_of_body(name)), "-o", variant);
-    const Staging models(OpenDirectory::at(staged.directory()));
-    study_options.directory = models.folder().path();
     studies.push_back(study_accuracy(scene, i, study_options, clock));
     std::ostringstream table;
     print_accuracy(table, studies.back());
