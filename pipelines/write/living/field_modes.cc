@@ -121,12 +121,28 @@ double length_of_rest(const UnitFields& fields, const AllModes& all, Index rank,
   return rest.largest();
 }
 
-/// What rounding to integers changes at most, by the sum of the factors' sizes.
-double rounding_error(const UnitFields& fields, const AllModes& all, Index rank, double step) {
+/// Sum of the factors' sizes, each times its weight, at the instant where it is largest.
+double largest_sum(const AllModes& all, const VectorXd& weights) {
   double most = 0;
   for (const auto& factors : all.factors)
-    most = std::max(most, factors.topRows(rank).cwiseAbs().colwise().sum().maxCoeff());
-  return step / 2 * std::sqrt(double(fields.n_components)) * most;
+    most = std::max(
+        most, (weights.asDiagonal() * factors.topRows(weights.size()).cwiseAbs()).colwise().sum().maxCoeff());
+  return most;
+}
+
+/// Steps with which rounding changes a length by no more than `enough`, but for modes that would need more
+/// than 16 bits then.
+VectorXd steps_of(const UnitFields& fields, const AllModes& all, Index rank, double enough) {
+  constexpr double largest_integer = 32767;
+  const double half_diagonal = std::sqrt(double(fields.n_components)) / 2;
+  const double sum = largest_sum(all, VectorXd::Ones(rank)) * half_diagonal;
+  VectorXd steps(rank);
+  for (Index m = 0; m < rank; ++m) {
+    const double finest = all.modes.col(m).cwiseAbs().maxCoeff() / largest_integer;
+    steps[m] = std::max(finest, sum > 0 ? enough / sum : 0);
+    if (steps[m] == 0) steps[m] = 1;
+  }
+  return steps;
 }
 
 }  // namespace
@@ -143,18 +159,16 @@ FieldModes field_modes(const UnitFields& fields, const std::vector<ArrayXXd>& se
   } while (left > tolerance && result.rank < std::min(available, most));
   if (left > tolerance)
     left = length_of_rest(fields, all, result.rank, std::numeric_limits<double>::infinity());
-  constexpr double largest_integer = 32767;
   const auto shown = all.modes.leftCols(result.rank);
-  result.step = shown.size() > 0 ? shown.cwiseAbs().maxCoeff() / largest_integer : 0;
-  if (result.step == 0) result.step = 1;
+  result.steps = steps_of(fields, all, result.rank, tolerance / 2);
   result.projection = all.projection.topRows(result.rank);
-  result.error = left + rounding_error(fields, all, result.rank, result.step);
+  result.error = left + std::sqrt(double(fields.n_components)) / 2 * largest_sum(all, result.steps);
   const auto n = fields.n_nodes(), parts = Index(fields.n_components);
   result.values.reserve(std::size_t(n * parts * result.rank));
   for (Index c = 0; c < parts; ++c)
     for (Index m = 0; m < result.rank; ++m)
       for (Index i = 0; i < n; ++i)
-        result.values.push_back(std::int16_t(std::lround(shown(i * parts + c, m) / result.step)));
+        result.values.push_back(std::int16_t(std::lround(shown(i * parts + c, m) / result.steps[m])));
   return result;
 }
 

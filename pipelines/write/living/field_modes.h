@@ -4,7 +4,7 @@
 /// With C the covariance of the factors over the cycle, C = R R^T, and A the unit fields (rows x K), the
 /// eigenvectors Q of R^T A^T A R (K x K) by falling eigenvalue give modes U = A R Q and their factors
 /// c = Q^T R^+ a: A a = U c for all factors a that C knows, and the first modes have the least error in the
-/// mean square (Karhunen 1947, Loeve). Factors c have size 1, so one step suits the integers of all modes.
+/// mean square (Karhunen 1947, Loeve).
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +24,7 @@ struct UnitFields {
 struct FieldModes {
   Eigen::Index rank = 0;
   Eigen::MatrixXd projection;        ///< rank x K: c = projection * a
-  double step = 0;                   ///< of the integers
+  Eigen::VectorXd steps;             ///< of the integers, by mode
   std::vector<std::int16_t> values;  ///< component after component, mode after mode, node after node
   /// Bound of the length of the difference to the full sum, at all nodes and instants of all sets: the
   /// largest of the modes left out, and what rounding to integers adds at most.

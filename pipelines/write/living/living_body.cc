@@ -81,8 +81,9 @@ void add_modes(const std::string& body, const char* name, const FieldModes& mode
                PackedBlock& block) {
   block.add(join(body, name), modes.values);
   block.add(join(body, (std::string(name) + " factors").c_str()), by_rows(modes.projection));
-  json[name] = summary::object(
-      {{"rank", modes.rank}, {"step", summary::number(modes.step)}, {"error", summary::number(modes.error)}});
+  json[name] = summary::object({{"rank", modes.rank},
+                                {"steps", std::vector<double>(modes.steps.begin(), modes.steps.end())},
+                                {"error", summary::number(modes.error)}});
 }
 
 void add_surface(const std::string& body, const Judged& analysis, const PageSurface& surface, Json& json,

@@ -65,7 +65,7 @@ class Body {
 
   /* Modes of a point together, padded to fours for the texels that they become. */
   #modes(name, own, components, rows) {
-    const { rank, step } = this.keys[name];
+    const { rank, steps } = this.keys[name];
     const padded = Math.max(4, Math.ceil(rank / 4) * 4);
     const stored = own(name);
     const values = new Int16Array(rows * components * padded);
@@ -75,7 +75,7 @@ class Body {
           values[(i * components + c) * padded + m] = stored[from + i];
     return {
       rank,
-      step,
+      steps,
       components,
       padded,
       values,
@@ -123,7 +123,7 @@ class Body {
     const factors = new Float32Array(n * modes.padded);
     for (let m = 0; m < modes.rank; m++)
       for (let k = 0; k < K; k++) {
-        const weight = modes.projection[m * K + k] * modes.step;
+        const weight = modes.projection[m * K + k] * modes.steps[m];
         if (weight === 0) continue;
         for (let t = 0; t < n; t++) factors[t * modes.padded + m] += weight * channels[k * n + t];
       }
