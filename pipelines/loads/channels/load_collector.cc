@@ -183,6 +183,7 @@ void LoadCollector::pressure(const std::string& port_name) {
   const auto found = body_.pressures.find(port_name);
   Array2Xd total = Array2Xd::Zero(2, n_instants_);
   for (const auto& [effect, force] : forces->second) total += force;
+  pressing_force_N_[port_name] = total;
   // beta is where the pressure is centred: opposite the force on an outer seat, along it inside a bore.
   ArrayXd beta(n_instants_);
   Array2Xd direction = Array2Xd::Zero(2, n_instants_);
@@ -305,6 +306,7 @@ BodyLoads LoadCollector::finish() const {
   result.history.body = body_.name;
   result.history.effects = effects_;
   result.pressures = pressures_;
+  result.pressing_force_N = pressing_force_N_;
   result.history.by_effect.assign(effects_.size(), Eigen::ArrayXXd::Zero(n_channels, n_instants_));
   result.history.values = Eigen::ArrayXXd::Zero(n_channels, n_instants_);
   for (Index k = 0; k < n_channels; ++k) {

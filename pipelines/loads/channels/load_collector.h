@@ -51,6 +51,8 @@ struct BodyLoads {
   ChannelHistory history;
   std::vector<fem::UnitLoad> unit_loads;
   std::map<std::string, PressureModel> pressures;  ///< by port that a pressure loads; half angles known
+  /// Force that presses there, by such a port: what turns the pressure's harmonics.
+  std::map<std::string, Eigen::Array2Xd> pressing_force_N;
   /// Vibratory shaft: what the bearings carry, own mass included; fixed frame.
   Eigen::Array2Xd frame_bearing_force_N;
   Eigen::ArrayXd drive_torque_Nm;  ///< vibratory shaft: clockwise positive, own mass included
@@ -135,6 +137,7 @@ private:
   std::map<std::string, std::map<std::size_t, Eigen::Array2Xd>> forces_;  // by port, effect
   std::map<std::string, Eigen::Array3Xd> moments_Nm_;                     // by place: x F_y, y F_x, couple
   std::map<std::string, PressureModel> pressures_;                        // by port
+  std::map<std::string, Eigen::Array2Xd> pressing_force_N_;               // by port
 };
 
 /// Resolves a planar force along axes that are turned counter-clockwise by alpha.
