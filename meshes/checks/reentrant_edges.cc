@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/values/constants.h"
 #include "meshes/values/vectors.h"
 
 namespace meshes {
@@ -10,6 +11,8 @@ namespace meshes {
 namespace {
 
 constexpr double cosine_of_limit = 0.5;  // 60 degrees
+/// At the seam of two surfaces straight cells of a fillet, eight around a circle, turn by 22.5 degrees.
+constexpr double limit_between_surfaces_rad = 25 * pi / 180;
 
 Point corner(const CellMesh& mesh, std::size_t face, std::size_t i) {
   return mesh.points[mesh.face(face)[i % mesh.corners_per_face()]];
@@ -21,6 +24,34 @@ Point unit_normal(const CellMesh& mesh, std::size_t face) {
   const double length = std::sqrt(dot(n, n));
   for (double& x : n) x /= length;
   return n;
+}
+
+/// Direction along a face, away from the middle of one of its edges, and at right angles to the edge; of
+/// quadratic triangles along their curved surface.
+Point into_face(const CellMesh& mesh, const SharpSide& side, const Point& along) {
+  const Point a = corner(mesh, side.face, side.edge), b = corner(mesh, side.face, side.edge + 1),
+              across = corner(mesh, side.face, side.edge + 2);
+  Point into{};
+  const bool is_curved = mesh.corners_per_face() == 3 && mesh.nodes_per_face() == 6;
+  const auto middle = [&](std::size_t e) {
+    return mesh.points[std::size_t(mesh.face(side.face)[3 + e % 3])];
+  };
+  for (std::size_t d = 0; d < 3; ++d)
+    into[d] = is_curved ? -0.5 * (a[d] + b[d]) - across[d] - 2 * middle(side.edge)[d] +
+                              2 * (middle(side.edge + 1)[d] + middle(side.edge + 2)[d])
+                        : across[d] - 0.5 * (a[d] + b[d]);
+  const double part = dot(into, along);
+  for (std::size_t d = 0; d < 3; ++d) into[d] -= part * along[d];
+  return into;
+}
+
+/// By how much the surface turns towards its outside across an edge of two faces.
+double kink_rad(const CellMesh& mesh, const SharpSide& one, const SharpSide& other) {
+  Point along = minus(corner(mesh, one.face, one.edge + 1), corner(mesh, one.face, one.edge));
+  const double size = length(along);
+  for (double& x : along) x /= size;
+  const Point a = into_face(mesh, one, along), b = into_face(mesh, other, along);
+  return std::atan2(dot(b, cross(along, a)), -dot(b, a));
 }
 
 /// Pieces along the parabola through the ends of a curved edge and its middle, which they leave by less than
@@ -54,7 +85,9 @@ std::vector<std::array<SharpSide, 2>> sharp_sides(const CellMesh& mesh) {
       const Point mine = unit_normal(mesh, f), its = unit_normal(mesh, other->second.face);
       // Re-entrant: the other face rises above the plane of this one.
       const Point across = corner(mesh, other->second.face, other->second.edge + 2);
-      if (dot(mine, its) < cosine_of_limit && dot(minus(across, mesh.points[a]), mine) > 0)
+      const bool is_sharp = dot(mine, its) < cosine_of_limit && dot(minus(across, mesh.points[a]), mine) > 0,
+                 is_seam = mesh.face_id[f] != mesh.face_id[other->second.face];
+      if (is_sharp || (is_seam && kink_rad(mesh, {f, e}, other->second) > limit_between_surfaces_rad))
         found.push_back({SharpSide{f, e}, other->second});
     }
   return found;

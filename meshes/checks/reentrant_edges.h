@@ -11,8 +11,9 @@
 namespace meshes {
 
 /// Edges where two boundary faces meet with their outward normals more than 60 degrees apart and the corner
-/// turned into the material: one entry per pair of features, "<one>/<other>". Fillets with six cells per
-/// circle and more stay below 60 degrees.
+/// turned into the material, and 25 degrees between two features, by curved faces where they are: one entry
+/// per pair of features, "<one>/<other>". Fillets with six cells per circle and more stay below 60 degrees,
+/// and those of eight and more below 25 at their seams.
 std::vector<SharpEdge> reentrant_edges(const CellMesh& mesh, const std::map<int, std::string>& names,
                                        double distance_m);
 

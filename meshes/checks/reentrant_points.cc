@@ -53,7 +53,6 @@ std::map<int, BoundaryVertex> boundary_vertices(const CellMesh& mesh) {
   return vertices;
 }
 
-/// The few cells around the tip of a cone have kinks between them that the cone has not.
 bool is_within_one_surface(const SharpEdge& edge) {
   const std::size_t half = edge.name.size() / 2;
   return edge.name.size() % 2 == 1 && edge.name[half] == '/' &&
@@ -69,9 +68,9 @@ bool is_tip(const BoundaryVertex& vertex) {
 
 }  // namespace
 
-std::vector<SharpEdge> reentrant_points(const CellMesh& mesh, const std::vector<SharpEdge>& edges,
-                                        const std::map<int, std::string>& names, double distance_m) {
-  std::set<Point> on_edges;
+void add_reentrant_points(const CellMesh& mesh, const std::map<int, std::string>& names, double distance_m,
+                          std::vector<SharpEdge>& edges) {
+  std::set<Point> on_edges, at_tips;
   for (const auto& edge : edges)
     if (!is_within_one_surface(edge))
       for (const auto& piece : edge.pieces) on_edges.insert(piece.begin(), piece.end());
@@ -82,8 +81,19 @@ std::vector<SharpEdge> reentrant_points(const CellMesh& mesh, const std::vector<
     std::string name;
     for (const int id : vertex.surfaces) name += (name.empty() ? "tip of " : "/") + names.at(id);
     tips.push_back({name, distance_m, {{at, at}}});
+    at_tips.insert(at);
   }
-  return tips;
+  for (auto& edge : edges)
+    if (is_within_one_surface(edge))
+      edge.pieces.erase(std::remove_if(edge.pieces.begin(), edge.pieces.end(),
+                                       [&](const auto& piece) {
+                                         return at_tips.count(piece[0]) + at_tips.count(piece[1]) > 0;
+                                       }),
+                        edge.pieces.end());
+  edges.erase(
+      std::remove_if(edges.begin(), edges.end(), [](const SharpEdge& edge) { return edge.pieces.empty(); }),
+      edges.end());
+  edges.insert(edges.end(), tips.begin(), tips.end());
 }
 
 }  // namespace meshes

@@ -15,6 +15,11 @@ constexpr std::uintmax_t most_bytes_of_a_geometry = 2'000'000'000;
 /// @throws GeometryRefused "line 12: ..."
 void check_step_text(const std::string& text);
 
+/// Checks like check_step_text, and returns the text as OpenCASCADE reads it: without a mark of the order of
+/// bytes, and without blanks and comments between ISO-10303-21, HEADER, DATA, ENDSEC, END-ISO-10303-21 and
+/// their semicolons.
+std::string step_text_to_read(std::string text);
+
 /// Checks the scale of a STEP file that states its lengths in another unit than mm: the reader has converted
 /// them to mm already.
 /// @param text        the file's text, found whole by check_step_text

@@ -38,12 +38,19 @@ struct ImportPort {
   std::variant<GroupSelection, BoxSelection, CylinderSelection> selection;
 };
 
+/// A sharp inner edge of a STEP part that is rounded for its effective notch stress.
+struct PartNotch {
+  Point at_m{};         ///< next to the edge: the nearest one is meant, and what goes on from it smoothly
+  double radius_m = 0;  ///< reference radius
+};
+
 struct Import {
   std::filesystem::path geometry;  ///< .step, .stp, or .msh of any version
   double scale_to_m = 0;           ///< length of the file's unit; 0: 1e-3 for STEP (mm), 1 for .msh
   std::vector<ImportPort> ports;
-  std::vector<PartWeld> welds{};  ///< hot-spot stress is read beside these sharp edges
-  SolidControl control;           ///< for a .msh only min_scaled_jacobian and exclusion_m count
+  std::vector<PartWeld> welds{};     ///< hot-spot stress is read beside these sharp edges
+  std::vector<PartNotch> notches{};  ///< of STEP files
+  SolidControl control;              ///< for a .msh only min_scaled_jacobian and exclusion_m count
   double time_limit_s = 0;  ///< processor time for reading, and again for meshing; 0: from size and cells
 };
 

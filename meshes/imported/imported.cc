@@ -177,13 +177,19 @@ void name_surfaces(const Import& import, ModelMesh& model, BodyMesh& body) {
   }
   for (std::size_t i = 0; i < model.pieces.size(); ++i) {
     if (port_of[i] >= 0) {
+      if (model.pieces[i].notch_radius_m > 0)
+        throw GeometryRefused("port " + body.ports[std::size_t(port_of[i])].name + " has the surface of " +
+                              name_of(model.pieces[i]) + ": a loaded surface is no notch; move one of them");
       id_of_piece.push_back(id_of_port[port_of[i]]);
       continue;
     }
     const Piece& piece = model.pieces[i];
     const std::string name = unused(name_of(piece), used);
     used.insert(name);
-    id_of_piece.push_back(add(name, Feature::Kind::surface, shapes[i].low_m[2], shapes[i].high_m[2]));
+    const bool is_notch = piece.notch_radius_m > 0;
+    id_of_piece.push_back(add(name, is_notch ? Feature::Kind::fillet : Feature::Kind::surface,
+                              shapes[i].low_m[2], shapes[i].high_m[2]));
+    if (is_notch) body.notches.push_back({id_of_piece.back(), piece.notch_radius_m, piece.notch_course_m});
   }
   for (int& id : model.mesh.face_id) id = id_of_piece[id];
 }
@@ -201,6 +207,9 @@ double scale_of(const Import& import) {
 BodyMesh build_unnamed(const Import& import) {
   check_control(import.control);
   const double scale_to_m = scale_of(import);
+  if (!import.notches.empty() && format_of(import.geometry) != GeometryFormat::step)
+    throw GeometryRefused(
+        "edges are rounded for effective notch stress in STEP files only; give the part as STEP");
   ModelMesh model = load(import, scale_to_m);
   require_likely_unit(import, model.mesh);
   BodyMesh body;
@@ -216,8 +225,7 @@ BodyMesh build_unnamed(const Import& import) {
   const double exclusion_m =
       import.control.exclusion_m > 0 ? import.control.exclusion_m : usual_exclusion_m(model);
   body.sharp_edges = reentrant_edges(model.mesh, body.groups.boundaries, exclusion_m);
-  for (auto& tip : reentrant_points(model.mesh, body.sharp_edges, body.groups.boundaries, exclusion_m))
-    body.sharp_edges.push_back(std::move(tip));
+  add_reentrant_points(model.mesh, body.groups.boundaries, exclusion_m, body.sharp_edges);
   for (std::size_t i = 0; i < import.welds.size(); ++i) {
     const auto toes =
         place_weld_toes(model.mesh, body.groups.boundaries, import.welds[i], int(i) + 1, body.sharp_edges);

@@ -33,7 +33,8 @@ struct ImportOutline {
   double n_cells = 0;    ///< cells that the control asks for (cell_estimate.h)
 };
 
-/// @throws as build_imported, of what is wrong with the file or the control; ports are not looked for
+/// @throws as build_imported, of what is wrong with the file or the control, and of ports that no surface can
+/// belong to (port_outline.h)
 ImportOutline outline_imported(const Import& import);
 
 }  // namespace meshes

@@ -1,6 +1,8 @@
 #include "meshes/imported/load_apart.h"
 
 #include <gmsh.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -20,6 +22,8 @@
 #include "meshes/imported/apart.h"
 #include "meshes/imported/file_checks.h"
 #include "meshes/imported/model_bytes.h"
+#include "meshes/imported/port_outline.h"
+#include "meshes/imported/rounded_edges.h"
 #include "meshes/solids/cad_surfaces.h"
 #include "meshes/solids/cell_estimate.h"
 #include "meshes/values/refused.h"
@@ -31,13 +35,30 @@ namespace {
 // Seconds of a core before gmsh is taken to hang. The samples of tests/unit/meshes/imported take 0.1 s to
 // read, and 1e-4 s for each cell.
 constexpr double least_reading_s = 4, s_per_byte = 4e-6;
-constexpr double least_meshing_s = 4, s_per_cell = 2e-3;
+constexpr double least_meshing_s = 4, s_per_cell = 1e-3, s_per_cell_of_small = 2e-3, most_of_small_s = 16;
 
-void import_solids(const Import& import) {
+double meshing_s(double n_cells) {
+  return least_meshing_s +
+         std::max(std::min(s_per_cell_of_small * n_cells, most_of_small_s), s_per_cell * n_cells);
+}
+
+/// A file in memory with that text, which lives as long as the process.
+std::string file_in_memory(const std::string& text) {
+  const int file = memfd_create("part.step", 0);
+  for (std::size_t at = 0; at < text.size();) {
+    const auto n = write(file, text.data() + at, text.size() - at);
+    if (n <= 0) throw GeometryRefused("its text has no room in memory: make room, or the file smaller");
+    at += std::size_t(n);
+  }
+  return "/proc/self/fd/" + std::to_string(file);
+}
+
+/// @param step  the file that is read
+void import_solids(const Import& import, const std::string& step) {
   gmsh::vectorpair shapes, volumes, fragments;
   // Names and colours are not looked at, and gmsh refuses files that colour curves.
   gmsh::option::setNumber("Geometry.OCCImportLabels", 0);
-  gmsh::model::occ::importShapes(import.geometry.string(), shapes, true, "step");
+  gmsh::model::occ::importShapes(step, shapes, true, "step");
   gmsh::model::occ::synchronize();
   gmsh::model::getEntities(volumes, 3);
   if (volumes.empty()) throw GeometryRefused("it has no solid, surfaces at most: export the part as a solid");
@@ -151,7 +172,8 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 /// Runs in the child: gmsh prints what it is at, which is all that is known if it crashes.
-ModelMesh load_with_gmsh(const Import& import, double scale_to_m) {
+/// @param step  the file that is read, if it is STEP
+ModelMesh load_with_gmsh(const Import& import, const std::string& step, double scale_to_m) {
   const GmshSession session;
   gmsh::option::setNumber("General.Terminal", 1);
   gmsh::option::setNumber("General.Verbosity", 4);
@@ -161,17 +183,19 @@ ModelMesh load_with_gmsh(const Import& import, double scale_to_m) {
     set_order_of_cells();
     return collect_model(scale_to_m);
   }
-  import_solids(import);
+  import_solids(import, step);
+  const auto rounded = round_edges(import.notches, scale_to_m);
   refuse_slender_tips();
   const double n_cells = estimated_cells(import.control, scale_to_m);
   require_affordable(n_cells, bytes_per_tetrahedron, control_of_cells(import.control),
                      "make the cells larger, or the fine parts fewer");
-  limit_rest_apart(import.time_limit_s > 0 ? import.time_limit_s : least_meshing_s + n_cells * s_per_cell);
+  limit_rest_apart(import.time_limit_s > 0 ? import.time_limit_s : meshing_s(n_cells));
   const Point centre = move_to_origin();
   SolidControl control = import.control;
   for (auto& spot : control.fine_spots) move(spot.centre_m, centre, -scale_to_m);
   ModelMesh model = mesh_and_collect(control, scale_to_m);
   name_shapes(scale_to_m, {scale_to_m * centre[0], scale_to_m * centre[1], scale_to_m * centre[2]}, model);
+  name_notches(import.notches, rounded, model);
   for (auto& point : model.mesh.points) move(point, centre, scale_to_m);
   for (auto& edge : model.straight_edges) move(edge.middle_m, centre, scale_to_m);
   for (auto* pieces : {&model.pieces, &model.volumes})
@@ -180,11 +204,14 @@ ModelMesh load_with_gmsh(const Import& import, double scale_to_m) {
 }
 
 /// Runs in the child: the volumes, and how many cells they would get.
-ModelMesh read_with_gmsh(const Import& import, double scale_to_m) {
+ModelMesh read_with_gmsh(const Import& import, const std::string& step, double scale_to_m) {
   const GmshSession session;
   gmsh::option::setNumber("General.Terminal", 1);
   gmsh::option::setNumber("General.Verbosity", 4);
-  import_solids(import);
+  import_solids(import, step);
+  round_edges(import.notches, scale_to_m);
+  refuse_slender_tips();
+  require_surfaces_of_ports(import.ports, scale_to_m);
   const double n_cells = estimated_cells(import.control, scale_to_m);
   require_affordable(n_cells, bytes_per_tetrahedron, control_of_cells(import.control),
                      "make the cells larger, or the fine parts fewer");
@@ -220,9 +247,10 @@ std::string last_deed(const std::string& log) {
   const std::string where = last_deed(end.log);
   switch (end.kind) {
     case EndApart::Kind::too_slow:
-      throw GeometryRefused("gmsh did not come to an end " + where +
-                            ": repair the geometry there and export it again, or give it longer with "
-                            "time_limit in the table mesh");
+      throw GeometryRefused(
+          "gmsh did not come to an end " + where +
+          ": draw it more simply there (a thread or helical groove as plain grooves, a pointed "
+          "end flat) and export it again, or give it longer with time_limit in the table mesh");
     case EndApart::Kind::too_late:
       throw MeshRefused("the time was up " + where);
     case EndApart::Kind::too_large:
@@ -258,18 +286,26 @@ GeometryFormat format_of(const std::filesystem::path& file) {
 
 namespace {
 
-/// @param work  what the child does
-ModelMesh model_apart(const Import& import, double scale_to_m, const std::function<ModelMesh()>& work) {
+/// Work of the child.
+/// @param step  the file that is read, if it is STEP
+using WorkApart = std::function<ModelMesh(const std::string& step)>;
+
+ModelMesh model_apart(const Import& import, double scale_to_m, const WorkApart& work) {
   const std::string text = text_of(import.geometry);
+  std::string to_read;
   if (format_of(import.geometry) == GeometryFormat::step) {
-    check_step_text(text);
+    to_read = step_text_to_read(text);
     check_step_unit(text, scale_to_m);
   } else {
     check_msh_text(text);
   }
   const double reading_s =
       import.time_limit_s > 0 ? import.time_limit_s : least_reading_s + s_per_byte * double(text.size());
-  const auto end = run_apart([&] { return bytes_of(work); }, reading_s);
+  const auto read = [&] {
+    const bool as_it_is = to_read.empty() || to_read == text;
+    return work(as_it_is ? import.geometry.string() : file_in_memory(to_read));
+  };
+  const auto end = run_apart([&] { return bytes_of(read); }, reading_s);
   if (end.kind != EndApart::Kind::finished) refuse_end(end);
   auto model = model_from(end.result);
   if (format_of(import.geometry) == GeometryFormat::msh) note_empty_groups(text, model);
@@ -279,11 +315,13 @@ ModelMesh model_apart(const Import& import, double scale_to_m, const std::functi
 }  // namespace
 
 ModelMesh load_apart(const Import& import, double scale_to_m) {
-  return model_apart(import, scale_to_m, [&] { return load_with_gmsh(import, scale_to_m); });
+  return model_apart(import, scale_to_m,
+                     [&](const auto& step) { return load_with_gmsh(import, step, scale_to_m); });
 }
 
 ModelMesh read_apart(const Import& import, double scale_to_m) {
-  return model_apart(import, scale_to_m, [&] { return read_with_gmsh(import, scale_to_m); });
+  return model_apart(import, scale_to_m,
+                     [&](const auto& step) { return read_with_gmsh(import, step, scale_to_m); });
 }
 
 }  // namespace meshes

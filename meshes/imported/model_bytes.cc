@@ -41,7 +41,9 @@ public:
         .add(piece.tag)
         .add(piece.size)
         .add(piece.centre_m)
-        .add(piece.second_moment);
+        .add(piece.second_moment)
+        .add(piece.notch_radius_m)
+        .add(piece.notch_course_m);
   }
   std::string take() { return std::move(bytes_); }
 
@@ -78,6 +80,8 @@ public:
     get(piece.size);
     get(piece.centre_m);
     get(piece.second_moment);
+    get(piece.notch_radius_m);
+    get(piece.notch_course_m);
   }
   void require_end() const { require_that(at_ == bytes_.size()); }
   static void require_that(bool sound) {

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "meshes/imported/file_checks.h"
@@ -18,16 +20,16 @@ const char* const write_step_again = "; export the part from the CAD again";
   throw GeometryRefused("line " + std::to_string(line) + ": " + what + write_step_again);
 }
 
-constexpr std::string_view first_word = "ISO-10303-21", last_word = "END-ISO-10303-21";
+constexpr std::string_view first_word = "ISO-10303-21", last_word = "END-ISO-10303-21",
+                           byte_order_mark = "\xef\xbb\xbf";
+constexpr std::array<std::string_view, 4> keywords = {first_word, "HEADER", "DATA", "ENDSEC"};
 
 char upper(char c) {
   return char(std::toupper(static_cast<unsigned char>(c)));
 }
 
-/// Keywords are the same in small and capital letters, for readers if not by ISO 10303-21. Blanks at the end
-/// do not count.
+/// Keywords are the same in small and capital letters, for readers if not by ISO 10303-21.
 bool is_same_word(std::string_view text, std::string_view word) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
   return std::equal(text.begin(), text.end(), word.begin(), word.end(),
                     [](char a, char b) { return upper(a) == upper(b); });
 }
@@ -53,6 +55,17 @@ public:
                                   ", which the file does not have: a line is missing or damaged");
   }
 
+  /// The text without what stands between keywords and their semicolons.
+  std::string without_gaps() const {
+    std::string result;
+    std::size_t from = 0;
+    for (const auto& [begin, end] : gaps_) {
+      result += text_.substr(from, begin - from);
+      from = end;
+    }
+    return result += text_.substr(from);
+  }
+
 private:
   struct Use {
     long entity, by;
@@ -72,13 +85,24 @@ private:
     } else if (c == '#' && at_ + 1 < text_.size() && is_digit(text_[at_ + 1])) {
       number();
     } else if (c == ';') {
-      has_ended_ = in_statement_ && is_same_word(text_.substr(statement_at_, at_ - statement_at_), last_word);
-      in_statement_ = false;
+      end_statement();
       ++at_;
     } else {
       begin();
-      ++at_;
+      word_end_ = ++at_;
     }
+  }
+
+  void end_statement() {
+    if (in_statement_) {
+      const auto statement = text_.substr(statement_at_, word_end_ - statement_at_);
+      has_ended_ = is_same_word(statement, last_word);
+      const bool is_keyword = has_ended_ || std::any_of(keywords.begin(), keywords.end(), [&](auto keyword) {
+                                return is_same_word(statement, keyword);
+                              });
+      if (is_keyword && word_end_ < at_) gaps_.emplace_back(word_end_, at_);
+    }
+    in_statement_ = false;
   }
 
   /// Old Macs ended lines by a carriage return alone.
@@ -93,6 +117,7 @@ private:
     in_statement_ = true;
     statement_at_ = at_;
     statement_line_ = line_;
+    word_end_ = at_;
     entity_ = 0;
   }
 
@@ -101,6 +126,7 @@ private:
     if (end == std::string_view::npos) refuse_step(line_, what + " that begins here does not end");
     for (std::size_t i = at_; i < end; ++i) line_ += int(ends_line(i));
     at_ = end + n_opening;
+    if (n_opening == 1) word_end_ = at_;  // a text
   }
 
   void number() {
@@ -110,6 +136,7 @@ private:
     long entity = 0;
     for (++at_; at_ < text_.size() && is_digit(text_[at_]); ++at_)
       entity = std::min(most, 10 * entity + (text_[at_] - '0'));
+    word_end_ = at_;
     if (!first) {
       uses_.push_back({entity, entity_, line_});
       return;
@@ -122,6 +149,8 @@ private:
 
   std::string_view text_;
   std::size_t at_ = 0, statement_at_ = 0;
+  std::size_t word_end_ = 0;  // behind the statement's last character that is no blank and no comment
+  std::vector<std::pair<std::size_t, std::size_t>> gaps_;
   bool has_ended_ = false;  // what follows the last statement, as zeros and blanks of old disks, is no STEP
   int line_ = 1, statement_line_ = 1;
   bool in_statement_ = false;
@@ -163,9 +192,16 @@ bool is_millimetre(const std::string& statement) {
 }  // namespace
 
 void check_step_text(const std::string& text) {
+  step_text_to_read(text);
+}
+
+std::string step_text_to_read(std::string text) {
+  if (text.compare(0, byte_order_mark.size(), byte_order_mark) == 0) text.erase(0, byte_order_mark.size());
   if (in_capitals(text).find(first_word) == std::string::npos)
     refuse_step(1, "this is no STEP file: it does not begin with ISO-10303-21");
-  StepText(text).check();
+  StepText whole(text);
+  whole.check();
+  return whole.without_gaps();
 }
 
 void check_step_unit(const std::string& text, double scale_to_m) {

@@ -23,6 +23,9 @@ struct Piece {
   std::vector<std::string> groups{};  ///< names of all physical groups that it belongs to
   /// Shape of a surface of a STEP file: "hole d 12 mm" (cad_surfaces.h); empty: not known.
   std::string shape{};
+  /// Radius of the rounding of a weld's edge that it is; 0: it is none. Points along the edge as it was.
+  double notch_radius_m = 0;
+  std::vector<Point> notch_course_m{};
 };
 
 /// Name of a surface: its group's, else "hole d 12 mm (surface 8)", or "surface 8"; unique, and the same for

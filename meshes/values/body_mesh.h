@@ -95,6 +95,13 @@ struct HotSpot {
   std::array<double, 3> toe_m{}, near_m{}, far_m{};
 };
 
+/// A surface that rounds a weld's edge by a reference radius, for the effective notch stress.
+struct EffectiveNotch {
+  int boundary_id = 0;
+  double radius_m = 0;
+  std::vector<std::array<double, 3>> course_m;  ///< points along the edge as it was
+};
+
 /// An edge of tetrahedra on a curved surface that is straighter than that surface, since cells as curved as
 /// it would be inverted.
 struct StraightEdge {
@@ -123,17 +130,10 @@ struct BodyMesh {
   std::vector<HotSpot> hot_spots;
   /// Names of hot spots that are not read: other plates are in the way.
   std::vector<std::string> covered_toes;
+  std::vector<EffectiveNotch> notches;       ///< imported STEP files only
   std::vector<StraightEdge> straight_edges;  ///< imported STEP files and keyed shafts only
   double smallest_size_m = 0;                ///< no edge of an imported STEP file's mesh is wanted shorter
   MeshQuality quality;
-
-  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
-  BodyMesh();
-  BodyMesh(const BodyMesh&);
-  BodyMesh(BodyMesh&&) noexcept;
-  BodyMesh& operator=(const BodyMesh&);
-  BodyMesh& operator=(BodyMesh&&) noexcept;
-  ~BodyMesh();
 };
 
 }  // namespace meshes

@@ -3,9 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 
+#include "fem/base/values/constants.h"
 #include "fem/mesh/grid/cell_geometry.h"
 
 namespace fem {
@@ -13,6 +15,7 @@ namespace fem {
 namespace {
 
 constexpr double cosine_of_sharp_edge = 0.5;  // 60 degrees between the normals
+constexpr double kink_between_groups_rad = 25 * pi / 180;
 
 Eigen::Vector3d point(const Grid& grid, std::int32_t node) {
   return Eigen::Vector3d(grid.position(node));
@@ -27,6 +30,7 @@ Eigen::Vector3d mean_of_corners(const Grid& grid, const std::int32_t* nodes, int
 /// A face of the surface: its corners 0, 1, 2 and the middles of the edges 01, 12, 20.
 struct SurfaceFace {
   std::int32_t cell = 0;
+  int boundary_id = 0;
   std::array<std::int32_t, 6> node{};
   Eigen::Vector3d normal, middle;  ///< of the flat face
 };
@@ -38,12 +42,30 @@ std::vector<SurfaceFace> surface_of(const Grid& grid, std::optional<int> no_surf
     const auto nodes = nodes_of_face(grid, boundary.cell, boundary.face);
     auto& face = faces.emplace_back();
     face.cell = boundary.cell;
+    face.boundary_id = boundary.boundary_id;
     std::copy_n(nodes.begin(), 6, face.node.begin());
     const Eigen::Vector3d a = point(grid, nodes[0]);
     face.normal = (point(grid, nodes[1]) - a).cross(point(grid, nodes[2]) - a).normalized();
     face.middle = mean_of_corners(grid, nodes.data(), 3);
   }
   return faces;
+}
+
+/// Direction along the curved face away from the middle of its edge e, at right angles to the edge.
+Eigen::Vector3d into_face(const Grid& grid, const SurfaceFace& face, int e, const Eigen::Vector3d& along) {
+  const auto at = [&](int i) { return point(grid, face.node[std::size_t(i)]); };
+  const Eigen::Vector3d into = -0.5 * (at(e) + at((e + 1) % 3)) - at((e + 2) % 3) - 2 * at(3 + e) +
+                               2 * (at(3 + (e + 1) % 3) + at(3 + (e + 2) % 3));
+  return into - along * along.dot(into);
+}
+
+/// By how much the surface turns towards its outside from a face, across its edge e, to another one.
+double kink_rad(const Grid& grid, const SurfaceFace& face, int e, const SurfaceFace& other, int its_edge) {
+  const Eigen::Vector3d along =
+      (point(grid, face.node[std::size_t((e + 1) % 3)]) - point(grid, face.node[std::size_t(e)]))
+          .normalized();
+  const Eigen::Vector3d a = into_face(grid, face, e, along), b = into_face(grid, other, its_edge, along);
+  return std::atan2(b.dot(along.cross(a)), -b.dot(a));
 }
 
 /// The faces of the surface around one node of a sharp edge, and which of them an edge through it joins.
@@ -65,7 +87,11 @@ std::map<std::int32_t, Surroundings> sharp_nodes(const Grid& grid, const std::ve
       if (is_new) continue;
       const auto [g, its_edge] = known->second;
       const Eigen::Vector3d across = point(grid, faces[g].node[(its_edge + 2) % 3]) - point(grid, a);
-      if (faces[f].normal.dot(faces[g].normal) >= cosine_of_sharp_edge || across.dot(faces[f].normal) <= 0) {
+      const bool is_sharp =
+          (faces[f].normal.dot(faces[g].normal) < cosine_of_sharp_edge && across.dot(faces[f].normal) > 0) ||
+          (faces[f].boundary_id != faces[g].boundary_id &&
+           kink_rad(grid, faces[f], e, faces[g], its_edge) > kink_between_groups_rad);
+      if (!is_sharp) {
         others.push_back({{a, b}, {f, g}});
         continue;
       }

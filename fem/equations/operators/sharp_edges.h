@@ -20,7 +20,8 @@ struct SplitGrid {
 /// them, and a fit through samples on both faces has no traction across either of them on the edge itself, as
 /// if the notch were relieved. A cell at the edge belongs to the side whose face it has or is nearest to.
 /// Edges are those whose boundary faces have outward normals more than 60 degrees apart, turned into the
-/// material; a node at which a single edge ends has its two sides too.
+/// material, or 25 degrees between two boundary groups, by the curved faces; a node at which a single edge
+/// ends has its two sides too.
 /// @param no_surface  boundary group that is no surface of the body: the rim of a submodel
 /// @return no copies of hexahedra, and of bodies without such edges
 SplitGrid split_at_sharp_edges(const Grid& grid, const CellsOfNodes& cells,

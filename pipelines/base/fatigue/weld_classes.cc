@@ -38,6 +38,10 @@ double thickness_exponent_of(const std::string& name) {
   return type ? type->thickness_exponent : thickness_exponent::cruciform_or_attachment;
 }
 
+double fat_of_notch_Pa(double radius_m) {
+  return (radius_m < notch_radius_m ? 630 : 225) * MPa;
+}
+
 bool is_fat_class(double fat_Pa) {
   constexpr double rounding = 1e-9;
   return std::any_of(classes_MPa.begin(), classes_MPa.end(),

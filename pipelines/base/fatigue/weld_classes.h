@@ -28,6 +28,17 @@ const WeldType* weld_type(const std::string& name);
 /// Thickness exponent of the type of that name; of another name 0.3, the largest of the table.
 double thickness_exponent_of(const std::string& name);
 
+/// Reference radii of effective notches in steel [m]: IIW's, and that of plates thinner than 5 mm.
+constexpr double notch_radius_m = 1e-3, notch_radius_of_thin_plates_m = 0.05e-3;
+
+/// The name of an effective notch where types of welds stand.
+inline constexpr const char* effective_notch = "effective notch";
+
+/// FAT class of effective notch stress in steel, principal stress: 225 MPa with the radius of 1 mm (Fricke,
+/// IIW-Doc. XIII-2240r2-08, table 1), 630 MPa with 0.05 mm (Sonsino et al., Int. J. Fatigue 34 (2012) 2).
+/// No thickness factor goes with it: the model has the size.
+double fat_of_notch_Pa(double radius_m);
+
 /// Whether it is one of IIW's classes of direct stress in steel, 36 to 160 MPa.
 bool is_fat_class(double fat_Pa);
 

@@ -75,7 +75,7 @@ double thickness_factor(double thickness_m, double exponent) {
 }
 
 SnCurve weld_curve(const WeldDetail& detail, LoadAmplitude amplitude) {
-  require_input_between("fat_Pa", detail.fat_Pa, 1e6, 500e6);
+  require_input_between("fat_Pa", detail.fat_Pa, 1e6, 700e6);
   require_input_between("gamma_M", detail.gamma_M, 1, 2);
   constexpr double class_cycles = 2e6, knee_cycles = 1e7, slope = 3;
   const double at_class_Pa =

@@ -43,9 +43,8 @@ struct WeldDetail {
 
 /// Design S-N curve of stress ranges (not amplitudes): N = 2e6 (f(t) FAT / gamma_M / range)^3, knee at 1e7
 /// cycles, then slope 22 for constant and 5 for variable amplitude.
-/// @throws std::invalid_argument if the FAT class is not between 1 MPa and 500 MPa, gamma_M outside 1 to 2,
-/// or as
-///         thickness_factor
+/// @throws std::invalid_argument if the FAT class is not between 1 MPa and 700 MPa, gamma_M outside 1 to 2,
+/// or as thickness_factor
 SnCurve weld_curve(const WeldDetail& detail, LoadAmplitude amplitude);
 
 /// Damage of cycles (ranges in Pa; means do not count).

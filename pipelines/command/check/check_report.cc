@@ -99,9 +99,10 @@ void print_surfaces(std::ostream& out, const CheckedBody& body) {
 }
 
 void print_ports(std::ostream& out, const CheckedBody& body) {
-  out << (body.ports_are_known
-              ? "  ports\n"
-              : "  ports that the scene asks for; --thorough looks for them, and has their channels\n");
+  out << (body.ports_are_known ? "  ports\n"
+                               : "  ports that the scene asks for, each with a surface that it may be; "
+                                 "--thorough looks for them, and has "
+                                 "their channels\n");
   for (const auto& port : body.ports) out << fmt::format("    {:<24}{}\n", port.name, port.where);
 }
 

@@ -168,15 +168,17 @@ std::string table_of(const RunReport& content, const std::optional<TorsionReport
 
 /// @param staged  null on ranks beside the first one, which make summary and table with it
 /// @param folder  where the other results are; not the staged one where the scene keeps the report alone
+/// @param living  of the page
 /// @param record  but for its table; without a key: this run is not to be taken for a later one
 void finish_run(const Request& request, StagedResults* staged, const std::filesystem::path& folder,
-                const RunReport& content, const std::optional<TorsionReport>& torsion, RunRecord record) {
+                const RunReport& content, const std::optional<TorsionReport>& torsion, RunRecord record,
+                const LivingPage& living) {
   const auto summary = summary_json(content);
   record.table = table_of(content, torsion, print_report);
   record.full_table = table_of(content, torsion, print_full_report);
   if (staged == nullptr) return;
   write_text_file(folder / "summary.json", summary);
-  write_html_report(folder, request.directory / "accuracy");
+  write_html_report(folder, request.directory / "accuracy", living);
   record.is_report_alone = folder != staged->folder();
   if (record.is_report_alone)
     for (const char* kept : {"summary.json", "report.html"})
@@ -246,10 +248,14 @@ void run_load_stage(const Request& request, const Scene& given, StageClock& cloc
   StagedResults staged(request.directory, run_names({}), "-o", request.variant);
   clock.run("write", [&] { write_loads_h5(staged.folder() / "loads.h5", loads); });
   const auto torsion = torsion_of(scene, scene.machine, staged.folder(), clock);
+  Loaded loaded;
+  loaded.scene = scene;
+  loaded.loads = loads;
+  const auto living = clock.run("page", [&] { return living_page(loaded, {}, 1); });
   finish_run(
       request, &staged, staged.folder(),
       {scene, loads, {}, {}, clock.costs(), lives, duty ? &*duty : nullptr, torsion ? &*torsion : nullptr},
-      torsion, {request.key, {}, {}});
+      torsion, {request.key, {}, {}}, living);
 }
 
 /// The default's minute was up before its tolerance was met: told loudly, but no failure, since nobody asked.
@@ -410,10 +416,12 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   if (duty && staged) clock.run("write", [&] { write_duty(folder / "duty.csv", *duty); });
   const Scene reported = with_machine(run.loaded.scene, run.loaded.masses.machine);
   const auto torsion = torsion_of(reported, reported.machine, folder, clock);
+  const auto living =
+      clock.run("page", [&] { return living_page(run.loaded, run.analyses, threads(options.n_threads)); });
   finish_run(request, staged ? &*staged : nullptr, folder,
              {reported, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings,
               duty ? &*duty : nullptr, torsion ? &*torsion : nullptr},
-             torsion, std::move(record));
+             torsion, std::move(record), living);
   wait_for_ranks();
   if (!run.met() && !accuracy.by_default)
     throw ToleranceNotMet("the tolerance is not met; the results are kept");

@@ -76,6 +76,9 @@ void add_ports_command(CLI::App& app, ChosenCommand& chosen);
 /// to results/<scene's name>. Solves nothing.
 void add_calculix_command(CLI::App& app, ChosenCommand& chosen);
 
+/// `millstress compare`: result directories and scenes side by side. -o: a directory of files.
+void add_compare_command(CLI::App& app, ChosenCommand& chosen);
+
 /// `millstress report`: report.html of a result directory, anew.
 void add_report_command(CLI::App& app, ChosenCommand& chosen);
 

@@ -10,7 +10,8 @@ namespace fs = std::filesystem;
 /// Where scenes that come with the program lie, from the program's own place: installed, or in its build.
 constexpr const char* scene_folders[] = {"../../share/millstress/scenes", "../pipelines/scenes"};
 
-/// A name without a folder and an ending that is no file here may be a scene that comes with the program.
+}  // namespace
+
 std::string file_of_scene(const std::string& scene) {
   std::error_code none;
   fs::path name(scene);
@@ -21,8 +22,6 @@ std::string file_of_scene(const std::string& scene) {
   const auto file = shipped_scenes() / name;
   return fs::is_regular_file(file, none) ? file.string() : scene;
 }
-
-}  // namespace
 
 fs::path shipped_scenes() {
   std::error_code none;

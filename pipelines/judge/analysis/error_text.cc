@@ -124,7 +124,9 @@ std::string rises_towards_edge(const Judged& analysis) {
     const auto& at_m = analysis.peak.position_m;
     weld = fmt::format(
         "where it is a weld say so, then its hot-spot stress is judged: [[{}.edges]] at = [\"{:.1f} mm\", "
-        "\"{:.1f} mm\", \"{:.1f} mm\"], kind = \"weld\", thickness = that of the plate",
+        "\"{:.1f} mm\", \"{:.1f} mm\"], kind = \"weld\", thickness = that of the plate; kind = \"notch\", "
+        "radius = \"1 mm\" rounds it "
+        "for its effective notch stress",
         analysis.scene.name, 1e3 * at_m[0], 1e3 * at_m[1], 1e3 * at_m[2]);
   }
   return fmt::format(

@@ -1,4 +1,5 @@
-/// The weld toes of a body as fatigue sees them: hot-spot stress for any loads, and the rules of each.
+/// The welds of a body as fatigue sees them, for any loads, and the rules of each: toes by their hot-spot
+/// stress, rounded edges by their effective notch stress.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,10 +19,10 @@ constexpr double damage_sum_of_spectra = 0.5;
 struct WeldPlace {
   std::string name;
   std::array<double, 3> toe_m{};
-  Eigen::Matrix<double, 6, Eigen::Dynamic> unit_Pa;  ///< hot-spot stress of each unit load
+  Eigen::Matrix<double, 6, Eigen::Dynamic> unit_Pa;  ///< hot-spot or notch stress of each unit load
   Eigen::Vector3d surface_normal, across_toe;
   WeldDetail detail;
-  std::string type;        ///< of weld_classes.h; empty: the class is the scene's own
+  std::string type;        ///< of weld_classes.h, or effective_notch; empty: the class is the scene's own
   double error_share = 0;  ///< whole error of the stress (whole_error_share); infinite: not known
 
   /// Stress along a direction in the surface, for ToeStress::angle_rad; a value per column of the factors.
@@ -44,7 +45,8 @@ struct WeldPlace {
 /// @throws StageRefused if the scene's fatigue names a toe that the body does not have
 void require_toes(const BodyScene& body, const meshes::BodyMesh& mesh);
 
-/// All toes, in the order of Judged::hot_spots.
+/// All toes, in the order of Judged::hot_spots, then of each notch the node whose stress across the weld
+/// changes most over the cycle.
 std::vector<WeldPlace> weld_places(const Judged& analysis);
 
 }  // namespace pipelines

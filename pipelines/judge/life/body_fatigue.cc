@@ -10,6 +10,7 @@
 
 #include "pipelines/base/common/parallel.h"
 #include "pipelines/base/fatigue/critical_plane.h"
+#include "pipelines/base/fatigue/weld_classes.h"
 #include "pipelines/judge/analysis/error_text.h"
 #include "pipelines/judge/analysis/weld_places.h"
 #include "pipelines/judge/estimates/place_stress.h"
@@ -204,9 +205,9 @@ WeldFatigue weld_of(const WeldPlace& place, const FactorCourse& course, const Re
   weld.toe_m = place.toe_m;
   weld.type = place.type;
   weld.class_Pa = place.detail.fat_Pa;
-  weld.thickness_m = place.detail.thickness_m;
+  if (place.type != effective_notch) weld.thickness_m = place.detail.thickness_m;
   weld.thickness_exponent = place.detail.thickness_exponent;
-  weld.thickness_factor = thickness_factor(weld.thickness_m, weld.thickness_exponent);
+  weld.thickness_factor = thickness_factor(place.detail.thickness_m, weld.thickness_exponent);
   weld.angle_rad = toe.angle_rad;
   weld.is_principal = toe.is_principal;
   weld.n_counted = toe.cycles.size();
@@ -296,7 +297,7 @@ double effective_diameter(const Responded& analysis) {
 
 /// Judges the place that is used most with the size of every kind of material of the group. Cycles are
 /// counted along the direction of the strength as given.
-void take_sizes(const Judged& analysis, const FatiguePlaces& search, const FatigueRules& rules,
+void take_sizes(const Responded& analysis, const FatiguePlaces& search, const FatigueRules& rules,
                 const LoadPeriod& period, BodyFatigue& fatigue) {
   fatigue.effective_diameter_m = effective_diameter(analysis);
   if (!(fatigue.effective_diameter_m > 0) || fatigue.places.empty() || rules.scene().endurance_Pa) return;
@@ -413,8 +414,11 @@ BodyFatigue judge_fatigue(const Judged& analysis, const LoadPeriod& period, int 
   fatigue.zones.resize(zones.size());
   for_each_parallel(zones.size(), at_once, [&](std::size_t, std::size_t i) {
     const auto& surface = fatigue.cycles.nodes;
-    fatigue.zones[i] = damage_of(zones[i], search, analysis, loads.history, rules, period,
-                                 std::binary_search(surface.begin(), surface.end(), zones[i].peak_node));
+    const bool is_judged = std::any_of(features.begin(), features.end(),
+                                       [&](const auto& of) { return of.first == zones[i].feature; });
+    fatigue.zones[i] =
+        damage_of(zones[i], search, analysis, loads.history, rules, period,
+                  is_judged && std::binary_search(surface.begin(), surface.end(), zones[i].peak_node));
   });
   if (rules.scene().size_factor == 1 && rules.scene().strength_source.empty())
     take_sizes(analysis, search, rules, period, fatigue);

@@ -61,12 +61,12 @@ struct FatiguePlace {
   LifeCertainty certainty;  ///< certainty of the life
 };
 
-/// A weld toe by its structural hot-spot stress over the cycle.
+/// A weld by its structural hot-spot or effective notch stress over the cycle.
 struct WeldFatigue {
   std::string name;
   std::array<double, 3> toe_m{};
-  std::string type;  ///< type of weld_classes.h; empty: the class is the scene's own
-  double class_Pa = 0, thickness_m = 0;
+  std::string type;  ///< type of weld_classes.h, or effective_notch; empty: the class is the scene's own
+  double class_Pa = 0, thickness_m = 0;                 ///< no thickness of a notch
   double thickness_exponent = 0, thickness_factor = 1;  ///< n and f(t) on the class (weld_fatigue.h)
   double range_Pa = 0;                                  ///< largest of the counted cycles
   double angle_rad = 0;       ///< angle of the governing direction from the toe's normal, at most 60 degrees
@@ -86,7 +86,7 @@ struct WeldFatigue {
 
 /// The damage at a zone's peak.
 struct ZoneDamage {
-  bool is_on_surface = false;  ///< else nothing is judged: fatigue is one of the surface
+  bool is_on_surface = false;  ///< else nothing is judged: inside, or where a weld is rounded
   double damage_per_turn = 0;
   std::optional<double> life_s;  ///< none: endures
   double error_share = 0;        ///< whole error of the amplitude; infinite: not known

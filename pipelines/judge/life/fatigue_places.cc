@@ -34,11 +34,12 @@ std::vector<NodesOfFeature> nodes_by_feature(const Superposed& analysis) {
   const auto& nodes = analysis.responses.nodes;
   std::map<int, std::string> name_of;
   for (const auto& feature : analysis.mesh.features) name_of[feature.boundary_id] = feature.name;
+  for (const auto& notch : analysis.mesh.notches) name_of.erase(notch.boundary_id);
   std::map<std::string, std::vector<std::size_t>> result;
   for (std::size_t f = 0; f < nodes.n_faces(); ++f)
-    for (const auto node : nodes.face(f))
-      if (!analysis.places.excluded[std::size_t(node)])
-        result[name_of.at(nodes.face_boundary_id[f])].push_back(std::size_t(node));
+    if (const auto name = name_of.find(nodes.face_boundary_id[f]); name != name_of.end())
+      for (const auto node : nodes.face(f))
+        if (!analysis.places.excluded[std::size_t(node)]) result[name->second].push_back(std::size_t(node));
   for (auto& [name, list] : result) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());

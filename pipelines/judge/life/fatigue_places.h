@@ -15,7 +15,8 @@ namespace pipelines {
 
 using NodesOfFeature = std::pair<std::string, std::vector<std::size_t>>;
 
-/// The nodes of each feature outside the exclusion distances; one on a seam belongs to both. By name.
+/// The nodes of each feature outside the exclusion distances; one on a seam belongs to both. By name. The
+/// roundings of welds are left out: their stress is judged by classes of welds (weld_places.h).
 std::vector<NodesOfFeature> nodes_by_feature(const Superposed& analysis);
 
 /// A node under one history of loads.

@@ -167,7 +167,7 @@ std::optional<Finding> judge_surface(const RunReport& report, const Judged& anal
 }
 
 std::optional<Finding> judge_welds(const RunReport& report, const Judged& analysis) {
-  if (analysis.hot_spots.empty()) return std::nullopt;
+  if (analysis.hot_spots.empty() && analysis.mesh.notches.empty()) return std::nullopt;
   return analysis.fatigue ? worst_of(report, analysis, true) : not_judged(analysis, "welds");
 }
 

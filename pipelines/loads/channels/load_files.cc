@@ -90,8 +90,8 @@ std::vector<Series> series_of(const kinetics::LoadHistory& loads, const BodyChan
     }
   for (const auto& resultant : loads.resultants)
     for (const auto& part : resultant.contributions)
-      add_resultant(all, "/effects/" + checked(part.effect) + "/" + resultant.role,
-                    part.effect + "/" + resultant.role, resultant.description, part.load);
+      add_resultant(all, "/effects/" + checked(loads.effects[part.effect]) + "/" + resultant.role,
+                    loads.effects[part.effect] + "/" + resultant.role, resultant.description, part.load);
   for (const auto* body : bodies)
     for (std::size_t e = 0; e < body->effects.size(); ++e)
       for (std::size_t k = 0; k < body->channels.size(); ++k) {

@@ -30,14 +30,6 @@ struct Responded {
   bool responses_reused = false;      ///< taken from an earlier run
   std::vector<std::string> warnings;  ///< of damaged files that an earlier run has left
   double solve_s = 0;                 ///< wall time; 0: taken from before
-
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
-  Responded();
-  Responded(const Responded&);
-  Responded(Responded&&) noexcept;
-  Responded& operator=(const Responded&);
-  Responded& operator=(Responded&&) noexcept;
-  ~Responded();
 };
 
 /// A body with unit responses that a model has found.

@@ -190,6 +190,12 @@ void read_tensile_strength(SceneTable& table, const KnownStrength& strength, Fat
     table.refuse("tensile_strength", "is below the material's yield_strength; correct one of them");
 }
 
+bool has_welds(const BodyScene& body) {
+  const auto* part = std::get_if<meshes::Import>(&body.shape);
+  return std::holds_alternative<ChamberShape>(body.shape) ||
+         (part != nullptr && !(part->welds.empty() && part->notches.empty()));
+}
+
 FatigueScene read_rules(SceneTable& table, const KnownStrength& strength, const BodyScene& body) {
   FatigueScene fatigue;
   fatigue.material.yield_strength_Pa = body.yield_strength_Pa;
@@ -207,7 +213,7 @@ FatigueScene read_rules(SceneTable& table, const KnownStrength& strength, const 
   if (table.has("endurance_limit"))
     fatigue.endurance_Pa = table.quantity("endurance_limit", "Pa", between(1e6, 3e9));
   if (table.has("wanted_life")) fatigue.wanted_life_s = table.quantity("wanted_life", "s", positive(1e12));
-  if (std::holds_alternative<ChamberShape>(body.shape)) read_toes(table, fatigue);
+  if (has_welds(body)) read_toes(table, fatigue);
   try_rules(table, fatigue);
   return fatigue;
 }

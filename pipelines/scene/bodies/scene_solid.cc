@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "meshes/imported/file_checks.h"
+#include "pipelines/base/fatigue/weld_classes.h"
 #include "pipelines/base/files/replaceable.h"
 #include "pipelines/base/files/whole_file.h"
 #include "pipelines/base/names/nearest_name.h"
@@ -92,19 +94,39 @@ meshes::ImportPort read_port(SceneTable& table) {
   return port;
 }
 
-/// A sharp inner edge that is a weld.
-meshes::PartWeld read_weld(SceneTable& table) {
-  meshes::PartWeld weld;
-  weld.at_m = point(table, "at");
+/// Reference radius of an effective notch: those that fatigue classes are known for.
+double read_notch_radius(SceneTable& table) {
+  constexpr double rounding = 1e-9;
+  const double radius_m = table.quantity("radius", "m", positive(longest_part_m));
+  for (const double reference_m : {notch_radius_m, notch_radius_of_thin_plates_m})
+    if (std::abs(radius_m - reference_m) <= rounding * reference_m) return reference_m;
+  table.refuse(
+      "radius",
+      "write \"1 mm\", or \"0.05 mm\" of plates thinner than 5 mm: fatigue classes of effective notch "
+      "stress are for these; a fillet that the part has belongs in the model");
+  return notch_radius_m;
+}
+
+/// A sharp inner edge that is a weld: judged by its hot-spot stress, or rounded for its effective notch
+/// stress.
+void read_edge(SceneTable& table, meshes::Import& import) {
+  const auto at_m = point(table, "at");
   const std::string kind = table.text("kind");
-  if (!kind.empty() && kind != "weld")
+  for (const char* key : {"thickness", "radius"}) table.know(key);
+  if (kind == "weld")
+    import.welds.push_back({at_m, table.quantity("thickness", "m", positive(longest_part_m))});
+  else if (kind == "notch")
+    import.notches.push_back({at_m, read_notch_radius(table)});
+  else if (!kind.empty())
     table.refuse(
         "kind",
-        "write \"weld\": its hot-spot stress is read; an edge that is no weld needs its fillet in the "
-        "model");
-  weld.thickness_m = table.quantity("thickness", "m", positive(longest_part_m));
+        "write \"weld\", whose hot-spot stress is read, or \"notch\", which is rounded by a reference "
+        "radius for its effective notch stress; an edge that is no weld needs its fillet in the model");
+  if (table.has("radius") && kind == "weld")
+    table.refuse("radius", "is of kind = \"notch\"; of a weld's hot-spot stress the thickness counts");
+  if (table.has("thickness") && kind == "notch")
+    table.refuse("thickness", "is of kind = \"weld\"; of a notch the radius counts");
   table.finish();
-  return weld;
 }
 
 }  // namespace
@@ -146,7 +168,7 @@ meshes::Import read_import(SceneTable& body, const std::filesystem::path& scene_
   for (SceneTable& table : body.tables("ports")) import.ports.push_back(read_port(table));
   body.know("edges");
   if (body.has("edges"))
-    for (SceneTable& table : body.tables("edges")) import.welds.push_back(read_weld(table));
+    for (SceneTable& table : body.tables("edges")) read_edge(table, import);
   std::vector<std::string> missing;
   for (const auto& name : needed_ports)
     if (std::none_of(import.ports.begin(), import.ports.end(), [&](const auto& p) { return p.name == name; }))

@@ -28,8 +28,11 @@ constexpr Trust usual{1.75, 0.3, 1.0 / 6, 0.002, 1e-4};
 /// An error with parts a of third and b of first order on the first section is bounded on the second one for
 /// b / a from -0.7 to 1.2, on the third one from -0.2 to 0.3, above which the ratio exceeds
 /// `most_of_third_order`. Where the maximum has moved between two sections their change says less.
-constexpr Trust of_fillet{0.5, 1.0 / 5, 1.0 / 20, 0.0015, 3e-5};
+constexpr Trust of_fillet{0.5, 1.0 / 6, 1.0 / 20, 0.0015, 3e-5};
 constexpr double most_of_third_order = 0.18;
+/// With b / a from 0.18, where the ratio exceeds 0.16, more than the least ratio is needed: a fifth up to
+/// 0.3.
+constexpr double raised_by = 1.25, most_raised = 1.0 / 5;
 
 }  // namespace
 
@@ -44,7 +47,8 @@ double missing_Pa(const std::vector<double>& values_Pa, Surroundings where) {
   const double before_Pa = std::abs(change_Pa(2));
   double ratio = before_Pa > 0 ? last_Pa / before_Pa : most_ratio;
   const Trust trust = ratio > most_of_third_order ? usual : own;
-  double least = trust.least_ratio, hidden = trust.hidden_share;
+  double least = std::max(trust.least_ratio, std::min(raised_by * ratio, most_raised)),
+         hidden = trust.hidden_share;
   if (n > 3) {
     least = least_ratio;
     hidden = ratio < small_by_chance ? hidden_share_by_chance : hidden_share;

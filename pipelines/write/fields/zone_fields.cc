@@ -123,7 +123,7 @@ std::string brought_by(const Json& of) {
 
 /// What fatigue says of a zone.
 std::string damage_of_row(const Json& damage) {
-  if (damage.is_null()) return "inside the body, where no fatigue is judged";
+  if (damage.is_null()) return "inside the body or at a weld, where no fatigue of the material is judged";
   if (damage.at("damage_per_turn").get<double>() > 0) {
     const auto by = brought_by(damage);
     return by.empty() ? by : "damage" + by;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/base/fatigue/weld_classes.h"
 #include "pipelines/judge/analysis/error_text.h"
 #include "pipelines/judge/analysis/weld_places.h"
 #include "pipelines/judge/life/fatigue_rules.h"
@@ -116,6 +117,8 @@ std::vector<std::string> fatigue_assumptions(const Judged& analysis) {
   if (scene.endurance_Pa)
     lines.push_back(
         fmt::format("the smooth specimen's limit is the scene's, {:.1f} MPa", *scene.endurance_Pa / 1e6));
+  const bool of_chamber =
+      std::holds_alternative<ChamberShape>(analysis.scene.shape) && !analysis.hot_spots.empty();
   if (!analysis.hot_spots.empty())
     lines.push_back(fmt::format(
         "weld toes: IIW, structural hot-spot stress, FAT {:.0f}{} / gamma_M {:.3g}, 95 % survival, "
@@ -132,14 +135,23 @@ std::vector<std::string> fatigue_assumptions(const Judged& analysis) {
         "cycle a period, {:.3g} and damage sum {:.3g} with several",
         one.slope, one.knee_cycles, *one.second_slope, *several.second_slope, damage_sum_of_spectra));
   }
-  if (!analysis.hot_spots.empty())
+  if (of_chamber)
     lines.emplace_back(
         "  of webs and lugs on the tube; welds of webs on the housing, of lugs on pads and of flanges on the "
         "tube are not judged");
-  if (!analysis.hot_spots.empty() && scene.toes.type == "load-carrying")
+  if (of_chamber && scene.toes.type == "load-carrying")
     lines.emplace_back(
         "  load-carrying fillet welds: webs carry the load from the housings to the tube, lugs that of the "
         "springs; another type of a toe stands in [[chamber.fatigue.welds.toes]]");
+  if (!analysis.mesh.notches.empty())
+    lines.push_back(fmt::format(
+        "weld edges rounded by {:.3g} mm: IIW, effective notch stress, FAT {:.0f} / gamma_M {:.3g}, 95 % "
+        "survival, "
+        "as welded; range of the principal stress within 60 degrees across the weld; no thickness factor; "
+        "slopes and "
+        "damage sum as of toes; a mild notch, of less than 1.6 times the structural stress, endures less",
+        1e3 * analysis.mesh.notches.front().radius_m,
+        fat_of_notch_Pa(analysis.mesh.notches.front().radius_m) / 1e6, scene.toes.partial_factor));
   if (const auto reason = why_no_din_743(rules, analysis); !reason.empty())
     lines.push_back("DIN 743 gives no second opinion: " + reason);
   if (analysis.method == Method::beam)

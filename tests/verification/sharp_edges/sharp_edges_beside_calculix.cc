@@ -266,6 +266,14 @@ TEST(SharpEdges, SlotIsBoundedBesideItsCorners) {
     if (part.name == "slot") hold(part, {0});
 }
 
+// Where edges meet stress may rise faster than along them, and cells beside the meeting see less of it.
+TEST(SharpEdges, PartsWithVerticesAreBoundedOnTheFirstRunAndInTheSearch) {
+  SKIP_WITHOUT("ccx");
+  const char* only = std::getenv("MILLSTRESS_SHARP_PART");
+  for (const auto& part : sharp_parts::with_vertices())
+    if (only == nullptr || part.name == only) hold(part, {0, 0.05});
+}
+
 TEST(SharpEdges, TenPartsAreBoundedOnTheFirstRunAndInTheSearch) {
   SKIP_WITHOUT("ccx");
   const char* only = std::getenv("MILLSTRESS_SHARP_PART");

@@ -147,6 +147,41 @@ std::vector<SharpPart> all() {
   };
 }
 
+std::vector<SharpPart> with_vertices() {
+  const auto plate = [] { return box({-50, 0, 0}, {100, 10, 40}); };
+  const auto rib = [] { return box({-20, 10, 16}, {40, 15, 8}); };
+  const LoadedFace left = face(0, -50, {0, 0}, {10, 40}), right = face(0, 50, {0, 0}, {10, 40}),
+                   whole_top = face(1, 60, {0, 0}, {60, 60}), whole_end = face(0, 60, {0, 0}, {60, 60});
+  return {
+      {"three plates",
+       [] {
+         fuse({box({0, 0, 0}, {60, 10, 60}), box({0, 10, 0}, {10, 50, 60}), box({10, 10, 0}, {50, 50, 10})});
+       },
+       whole_top, whole_end, 30000},
+      {"missing corner",
+       [] {
+         cut(box({0, 0, 0}, {60, 60, 60}), box({30, 30, 30}, {30, 30, 30}));
+       },
+       whole_end, face(0, 0, {0, 0}, {60, 60}), 200000},
+      {"rib",
+       [=] {
+         fuse({plate(), rib()});
+       },
+       right, left, 40000},
+      {"sloped rib",
+       [=] {
+         fuse({plate(), rib(), wedge({{{20, 10, 16}, {35, 10, 16}, {20, 25, 16}}}, 8),
+               wedge({{{-20, 10, 16}, {-20, 25, 16}, {-35, 10, 16}}}, 8)});
+       },
+       right, left, 40000},
+      {"crossing ribs",
+       [=] {
+         fuse({plate(), box({-40, 10, 16}, {80, 12, 8}), box({-4, 10, 4}, {8, 12, 32})});
+       },
+       right, left, 40000},
+  };
+}
+
 std::filesystem::path write_scene(const SharpPart& part, const std::filesystem::path& directory) {
   step_shafts::write_drawn(directory / "part.step", part.draw);
   Point along{};

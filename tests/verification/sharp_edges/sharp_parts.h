@@ -29,6 +29,10 @@ struct SharpPart {
 /// a plate, stepped bar.
 std::vector<SharpPart> all();
 
+/// Where sharp edges meet or end: three plates in a corner, a block without one corner, a rib on a plate with
+/// upright and with sloped ends, crossing ribs.
+std::vector<SharpPart> with_vertices();
+
 /// Writes the STEP file and the scene beside it.
 /// @return the scene's file
 std::filesystem::path write_scene(const SharpPart& part, const std::filesystem::path& directory);

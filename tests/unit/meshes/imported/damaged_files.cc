@@ -96,8 +96,8 @@ TEST(DamagedFiles, StepTextsThatReadersTakeAreNone) {
   for (const auto& text :
        {with(step, last, "End-ISO-10303-21;"), small, old_mac, "\xEF\xBB\xBF" + step,
         step + std::string(9, '\0'), step + "\x1a", step + "  \n\t\n", step + "what is this? '#77",
-        with(step, last, "END-ISO-10303-21 ;"), "/* by hand */\n" + step,
-        with(step, "ENDSEC;\nDATA;", "FILE_SCHEMA(('A','B'));\nENDSEC;\nDATA;")})
+        with(step, last, "END-ISO-10303-21 ;"), with(step, last, "END-ISO-10303-21 /* the end; */ ;"),
+        "/* by hand */\n" + step, with(step, "ENDSEC;\nDATA;", "FILE_SCHEMA(('A','B'));\nENDSEC;\nDATA;")})
     EXPECT_EQ(refusal_of([&] { meshes::check_step_text(text); }), "accepted") << text;
   expect_words(refusal_of([&] { meshes::check_step_text(with(old_mac, "#1=CART", "#4=CART")); }), {"line 8"});
 }

@@ -89,8 +89,10 @@ void write_row(const CadPart& part, double seconds, const meshes::BodyMesh& body
     remark += std::to_string(n) + (n > 1 ? " tips" : " tip") + " left out";
   if (!body.straight_edges.empty()) {
     char text[100];
-    std::snprintf(text, sizeof text, "%s%zu edges straighter than their surface, by %.2g mm at most",
-                  remark.empty() ? "" : "; ", body.straight_edges.size(), 1e3 * largest_off_m(body));
+    const std::size_t n = body.straight_edges.size();
+    std::snprintf(text, sizeof text, "%s%zu %s straighter than %s surface, by %.2g mm%s",
+                  remark.empty() ? "" : "; ", n, n == 1 ? "edge" : "edges", n == 1 ? "its" : "their",
+                  1e3 * largest_off_m(body), n == 1 ? "" : " at most");
     remark += text;
   }
   std::ofstream(file, std::ios::app) << "| " << part.name << " | " << figures << " | " << remark << " |\n";

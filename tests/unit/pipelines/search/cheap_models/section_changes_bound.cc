@@ -47,6 +47,7 @@ TEST(SectionChanges, AreSharpInFillets) {
     EXPECT_LE(cubic.stated_share(Surroundings::inside_fillet), 4) << n;
     EXPECT_GE(cubic.stated_share(Surroundings::any), cubic.stated_share(Surroundings::inside_fillet));
   }
+  EXPECT_LE(Sequence(3, 0).stated_share(Surroundings::inside_fillet), 3);
   EXPECT_GT(Sequence(3, 0).stated_share(Surroundings::any), 8);
 }
 

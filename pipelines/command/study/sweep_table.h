@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/command/sweep/sweep_command_options.h"
+#include "pipelines/command/study/sweep_command_options.h"
 #include "pipelines/study/sweep/sweep_row.h"
 #include "pipelines/study/variations/sweep_points.h"
 

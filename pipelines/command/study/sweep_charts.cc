@@ -1,4 +1,4 @@
-#include "pipelines/command/sweep/sweep_charts.h"
+#include "pipelines/command/study/sweep_charts.h"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 
 #include "pipelines/base/common/process_limits.h"
 #include "pipelines/base/fields/shown_unit.h"
-#include "pipelines/command/sweep/sweep_table.h"
+#include "pipelines/command/study/sweep_table.h"
 #include "pipelines/write/drawing/chart.h"
 
 namespace pipelines {

@@ -1,6 +1,7 @@
-/// What is particular to one kind of body, a vibratory mill's shaft or a planetary mill's drum: how the scene
-/// describes it, which loads enter where, whose masses it shares, what carries it. The rooms ask the kind and
-/// compare none; every kind is one file in pipelines/loads/bodies, listed by loads/bodies/table.cc.
+/// What is particular to one kind of body, a vibratory mill's shaft or a planetary mill's drum, in the scene:
+/// the keys that describe it, its effects, whose masses it shares, what carries it. The rooms ask the reader
+/// and compare no kinds; every kind is one file in pipelines/scene/kinds, listed by scene/kinds/table.cc.
+/// What loads enter it is said by loads/stage/load_maker.h.
 #pragma once
 
 #include <optional>
@@ -8,32 +9,19 @@
 #include <vector>
 
 #include "kinetics/values/effect_info.h"
-#include "kinetics/values/load_history.h"
 #include "pipelines/scene/values/body_scene.h"
 #include "pipelines/scene/whole/machine.h"
 #include "pipelines/scene/whole/scene_table.h"
 
 namespace pipelines {
 
-struct BodyLoads;
-struct Closure;
 struct ContourRules;
-struct LoadedBody;
-struct MassAgreement;
-struct MeshedBody;
-struct RegionMass;
 
-/// Port where the torque of an element of the machine enters a body, and the role of that torque in load
-/// histories.
-struct ElementPort {
-  std::string element, port, role;
-};
-
-class BodyKind {
+class BodyReader {
 public:
-  virtual ~BodyKind() = default;
+  virtual ~BodyReader() = default;
 
-  // ---- The scene ----
+  // ---- The tables ----
 
   /// `machine.type` of the scenes that can have the body.
   virtual std::string machine_type() const = 0;
@@ -77,34 +65,6 @@ public:
   virtual std::optional<std::string> usual_difference_port(const BodyScene& body) const;
   /// Reads which part of the machine an added mass counts to, if there are several.
   virtual void read_region(SceneTable& entry, AddedMass& added) const;
-  /// Takes open masses from the mesh; differences to given ones become attached masses.
-  /// @throws StageRefused if a difference exceeds 20 %
-  virtual void agree_masses(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
-                            MassAgreement& result) const;
-  /// Parts of the mesh that are accelerated on their own; the whole body unless overridden.
-  virtual std::vector<RegionMass> regions(const MeshedBody& meshed) const;
-
-  // ---- Loads ----
-
-  /// Turns the load stage's resultants into the body's channels.
-  /// @param history  loads of the load stage with the machine of `masses`
-  virtual BodyLoads distribute(const Scene& scene, const BodyScene& body,
-                               const kinetics::LoadHistory& history, const LoadedBody& loaded,
-                               const MassAgreement& masses) const = 0;
-  /// The elements of a drive train that join the body to the others; none of other machines.
-  virtual std::vector<ElementPort> element_ports(const BodyScene& body) const;
-  /// Refuses loads that remain in directions in which the scene could name a support and does not. Most
-  /// kinds get their reactions from their machine.
-  /// @throws StageRefused naming the body's table, each key that is missing, the force or moment that it has
-  /// to carry and what to write
-  virtual void require_supports(const BodyScene& body, const BodyLoads& loads,
-                                const std::vector<RegionMass>& regions) const;
-  /// What to name in the body's table so that loads that do not close are carried; empty: nothing would do.
-  virtual std::string missing_support(const BodyScene& body, const Closure& closure) const;
-  /// Adds to the load stage's history what only the loaded body can tell: quantities with the body's own
-  /// mass, and what a user of its loads should know.
-  virtual void report(const Scene& scene, const BodyScene& body, const BodyLoads& loads,
-                      kinetics::LoadHistory& history) const;
 
   // ---- What holds it ----
 
@@ -114,16 +74,11 @@ public:
   virtual std::vector<std::string> supporting_ports(const BodyScene& body) const = 0;
   /// Whether those ports hold it in all directions; else they are pins, free to tilt.
   virtual bool is_clamped(const BodyScene& body) const;
-  /// Revolutions per second of the body's axes against what holds it; 0: they do not turn.
-  virtual double spin_Hz(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& loads) const;
-  /// The same where the scene leaves it open: all that it may be, ascending; else that one.
-  virtual std::vector<double> spins_Hz(const Scene& scene, const BodyScene& body,
-                                       const kinetics::LoadHistory& loads) const;
 };
 
-/// Kinds in the order of BodyOptions.
-const std::vector<const BodyKind*>& body_kinds();
+/// Readers in the order of BodyOptions.
+const std::vector<const BodyReader*>& body_readers();
 
-const BodyKind& kind_of(const BodyScene& body);
+const BodyReader& reader_of(const BodyScene& body);
 
 }  // namespace pipelines

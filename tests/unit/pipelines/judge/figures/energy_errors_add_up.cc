@@ -1,4 +1,4 @@
-#include "pipelines/judge/estimates/energy_errors.h"
+#include "pipelines/judge/figures/energy_errors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipelines/command/sweep/sweep_table.h"
+#include "pipelines/command/study/sweep_table.h"
 
 #include <fmt/core.h>
 
