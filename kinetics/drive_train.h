@@ -89,14 +89,6 @@ struct DriveTrain {
   std::string reference_shaft;       ///< the shaft line that reduced quantities refer to
   double reference_speed_rad_s = 0;  ///< its mean speed, > 0: orders, Campbell table, time grid
   double modal_damping_ratio = 0;    ///< damping ratio of every elastic mode of the undamped train, >= 0
-
-  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
-  DriveTrain();
-  DriveTrain(const DriveTrain&);
-  DriveTrain(DriveTrain&&) noexcept;
-  DriveTrain& operator=(const DriveTrain&);
-  DriveTrain& operator=(DriveTrain&&) noexcept;
-  ~DriveTrain();
 };
 
 /// Mean speed of an inertia's shaft: that of the reference shaft times its ratio.

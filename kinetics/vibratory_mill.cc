@@ -9,13 +9,6 @@
 
 namespace kinetics {
 
-VibratoryMill::VibratoryMill() = default;
-VibratoryMill::VibratoryMill(const VibratoryMill&) = default;
-VibratoryMill::VibratoryMill(VibratoryMill&&) noexcept = default;
-VibratoryMill& VibratoryMill::operator=(const VibratoryMill&) = default;
-VibratoryMill& VibratoryMill::operator=(VibratoryMill&&) noexcept = default;
-VibratoryMill::~VibratoryMill() = default;
-
 LoadHistory compute_loads(const VibratoryMill& mill, const std::vector<std::string>& effects,
                           const TimeGrid& grid) {
   vibratory::check_effects(mill.convention, effects);

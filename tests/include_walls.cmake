@@ -73,15 +73,15 @@ set(rooms_kinetics values series vibratory_effects vibratory planetary_effects p
 set(rooms_meshes values gmsh spacing checks shaft_layout shaft chamber solids keyed_shaft imported)
 set(rooms_pipelines
     base/common base/disk base/fatigue base/names base/files base/fields
-    scene/materials scene/values scene/whole scene/bodies scene/tables scene/reader scene/machines
+    scene/materials scene/values scene/whole scene/bodies scene/kinds scene/tables scene/reader scene/machines
     loads/channels loads/stage loads/bodies
     respond/responses
     superpose/kernels superpose/envelope superpose/between_instants
     judge/estimates judge/figures judge/analysis judge/stages judge/life judge/texts judge/verdict
     search/cheap_models search/effect_choice search/refinement search/models search/loop
-    write/drawing write/exports write/fields write/machines write/parts write/pictures write/report write/files
-    study/effects study/variations study/accuracy study/sweep
-    command/calculix command/options command/check command/commands command/sweep)
+    write/drawing write/exports write/fields write/machines write/parts write/pictures write/living write/report write/files
+    study/effects study/variations study/accuracy study/sweep study/comparison
+    command/front command/calculix command/options command/check command/commands command/study)
 foreach(folder fem kinetics meshes pipelines)
   set(above ${rooms_${folder}})
   foreach(room IN LISTS rooms_${folder})

@@ -1,10 +1,21 @@
 # What `cmake --install` leaves works from there: cmake -D BUILD=<build> -D DIRECTORY=<scratch> -P installed.cmake
-# Turns red: a scene, page or script that is not installed; a command that the page or a completion lacks; a place of the
+# Turns red: libraries that the version waits for; a scene, page or script that is not installed; a command that the page or a completion lacks; a place of the
 # scenes that counts from somewhere else than the program.
 cmake_policy(VERSION 3.25)
 file(REMOVE_RECURSE ${DIRECTORY})
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${DIRECTORY} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 set(program ${DIRECTORY}/bin/millstress)
+
+execute_process(COMMAND ${program} --version OUTPUT_VARIABLE version COMMAND_ERROR_IS_FATAL ANY)
+if(NOT version MATCHES "^millstress [0-9]+\\.[0-9]+\\.[0-9]+( \\(commit [0-9a-f]+\\+?\\))?\n$")
+  message(FATAL_ERROR "--version: ${version}")
+endif()
+execute_process(COMMAND ldd ${program} OUTPUT_VARIABLE libraries COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "\n" libraries "${libraries}")
+list(LENGTH libraries n)
+if(n GREATER 8)
+  message(FATAL_ERROR "to tell its version the program loads ${n} libraries")
+endif()
 
 execute_process(COMMAND ${program} loads shaft --json WORKING_DIRECTORY ${DIRECTORY} OUTPUT_VARIABLE loads ERROR_QUIET
                 COMMAND_ERROR_IS_FATAL ANY)
@@ -25,6 +36,12 @@ if(n LESS 15)
   message(FATAL_ERROR "--help lists ${n} commands: ${help}")
 endif()
 execute_process(COMMAND gzip -dc ${DIRECTORY}/share/man/man1/millstress.1.gz OUTPUT_VARIABLE page COMMAND_ERROR_IS_FATAL ANY)
+file(READ ${DIRECTORY}/share/millstress/scene.schema.json schema)
+string(JSON unit GET "${schema}" properties machine properties speed description)
+string(JSON n LENGTH "${schema}" properties shaft properties)
+if(NOT unit MATCHES "rad/s" OR n LESS 8)
+  message(FATAL_ERROR "the schema has ${n} keys of a shaft, and of a speed: ${unit}")
+endif()
 set(completion ${DIRECTORY}/share/bash-completion/completions/millstress)
 file(READ ${DIRECTORY}/share/fish/vendor_completions.d/millstress.fish fish)
 file(READ ${DIRECTORY}/share/zsh/vendor-completions/_millstress zsh)

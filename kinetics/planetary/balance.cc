@@ -66,7 +66,7 @@ std::vector<Resultant> open_roles(Index n) {
 }
 
 /// Adds a block's load to an effect's contribution, made at its first mention, and to the total.
-void post(Resultant& resultant, const std::string& effect, Index first, const Array3Xd& load) {
+void post(Resultant& resultant, std::size_t effect, Index first, const Array3Xd& load) {
   auto& parts = resultant.contributions;
   auto part =
       std::find_if(parts.begin(), parts.end(), [&](const Contribution& c) { return c.effect == effect; });
@@ -91,17 +91,19 @@ LoadHistory balance(const Machine& machine, const std::vector<NamedEffect>& effe
     const Index count = std::min(block_size, n - first);
     Instants at{history.phi_rad.segment(first, count), ArrayXd::Zero(count)};
     const ArrayXd no_torque = ArrayXd::Zero(count);
-    for (const NamedEffect& effect : effects) {
-      const EffectLoad load = effect.evaluate(at);
-      post(roles[axle], effect.name, first, load_of(load.on_axle_N, no_torque));
-      post(roles[trunnions], effect.name, first, load_of(-load.on_axle_N, no_torque));
-      post(roles[role_of(load.receiver)], effect.name, first, load_of(load.force_N, load.moment_Nm));
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      const EffectLoad load = effects[e].evaluate(at);
+      post(roles[axle], e, first, load_of(load.on_axle_N, no_torque));
+      post(roles[trunnions], e, first, load_of(-load.on_axle_N, no_torque));
+      post(roles[role_of(load.receiver)], e, first, load_of(load.force_N, load.moment_Nm));
       if (load.receiver != Receiver::pulley) at.moment_Nm += load.moment_Nm;
     }
     moment_Nm.segment(first, count) = at.moment_Nm;
   }
-  if (!contains(history.effects, "belt") && !roles[inner_wall].contributions.empty())
-    post(roles[pulley], "drive_couple", 0, load_of(Array2Xd::Zero(2, n), -moment_Nm));
+  if (!contains(history.effects, "belt") && !roles[inner_wall].contributions.empty()) {
+    post(roles[pulley], effects.size(), 0, load_of(Array2Xd::Zero(2, n), -moment_Nm));
+    history.effects.push_back("drive_couple");
+  }
   for (const Resultant& role : roles)
     if (role.role == "axle" || role.role == "trunnions" || !role.contributions.empty())
       history.resultants.push_back(role);

@@ -43,7 +43,8 @@ ArrayXd gravity_power_W(const Machine& machine, const LoadHistory& history) {
   for (const Resultant& resultant : history.resultants)
     if (resultant.role == "drum" || resultant.role == "inner_wall")
       for (const Contribution& part : resultant.contributions)
-        if (part.effect == "drum_gravity" || part.effect == "charge_gravity")
+        if (const std::string& effect = history.effects[part.effect];
+            effect == "drum_gravity" || effect == "charge_gravity")
           moment_Nm += (machine.geometry.carrier_m * part.load.row(1) + part.load.row(2)).transpose();
   return moment_Nm * machine.mill.speed_rad_s;
 }

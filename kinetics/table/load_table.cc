@@ -280,6 +280,7 @@ double share_beyond_instants(const SampledCourse& samples, const ArrayXd& values
   return largest > 0 ? most / largest : 0;
 }
 
+/// Adds a load of the history's last effect.
 void post(const TableLoad& load, const ArrayXd& values, LoadHistory& history) {
   const std::vector<std::string> planar{"fx", "fy", "torque"};
   const auto row = std::find(planar.begin(), planar.end(), load.component) - planar.begin();
@@ -298,13 +299,11 @@ void post(const TableLoad& load, const ArrayXd& values, LoadHistory& history) {
         {load.port, "from the load table, at that port", Eigen::Array3Xd::Zero(3, values.size()), {}});
   auto& resultant = *std::find_if(history.resultants.begin(), history.resultants.end(),
                                   [&](const auto& r) { return r.role == load.port; });
-  auto part = std::find_if(resultant.contributions.begin(), resultant.contributions.end(),
-                           [&](const auto& c) { return c.effect == load.effect; });
-  if (part == resultant.contributions.end()) {
-    resultant.contributions.push_back({load.effect, Eigen::Array3Xd::Zero(3, values.size())});
-    part = resultant.contributions.end() - 1;
-  }
-  part->load.row(row) = values.transpose();
+  auto& parts = resultant.contributions;
+  const std::size_t effect = history.effects.size() - 1;
+  if (parts.empty() || parts.back().effect != effect)
+    parts.push_back({effect, Eigen::Array3Xd::Zero(3, values.size())});
+  parts.back().load.row(row) = values.transpose();
   resultant.total.row(row) += values.transpose();
 }
 
@@ -435,11 +434,11 @@ LoadHistory loads_at(const LoadTable& table, const std::vector<std::string>& eff
   history.time_s = phi_rad / table.speed_rad_s;
   history.speed_rad_s = ArrayXd::Constant(n, table.speed_rad_s);
   history.acceleration_rad_s2 = ArrayXd::Zero(n);
-  for (const auto& effect : load_table_effects(table))
-    if (std::find(effects.begin(), effects.end(), effect.name) != effects.end())
-      history.effects.push_back(effect.name);
-  evaluate_all(table, effects, grid, phi_rad,
-               [&](const TableLoad& load, const ArrayXd& values) { post(load, values, history); });
+  evaluate_all(table, effects, grid, phi_rad, [&](const TableLoad& load, const ArrayXd& values) {
+    if (history.effects.empty() || history.effects.back() != load.effect)
+      history.effects.push_back(load.effect);
+    post(load, values, history);
+  });
   return history;
 }
 

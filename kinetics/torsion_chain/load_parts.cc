@@ -12,16 +12,18 @@ using Eigen::Array3Xd;
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-/// A resultant that is a torque alone.
+/// A resultant that is a torque alone; parts whose torque is empty bring nothing to it.
 template <class TorqueOf>
 Resultant torque_on(const std::string& role, const std::string& description,
                     const std::vector<LoadPart>& parts, Index n, const TorqueOf& torque_of) {
   Resultant resultant{role, description, Array3Xd::Zero(3, n), {}};
-  for (const LoadPart& part : parts) {
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const ArrayXd torque_Nm = torque_of(parts[p]);
+    if (torque_Nm.size() == 0) continue;
     Array3Xd load = Array3Xd::Zero(3, n);
-    load.row(2) = torque_of(part).transpose();
+    load.row(2) = torque_Nm.transpose();
     resultant.total += load;
-    resultant.contributions.push_back({part.effect, load});
+    resultant.contributions.push_back({p, load});
   }
   return resultant;
 }
@@ -34,12 +36,10 @@ void write_inertia(const DriveTrain& train, Index i, const TrainMotion& sum,
       {inertia.name + ".angle", "rad", angle_text, sum.angle_rad.row(i).transpose()});
   history.quantities.push_back(
       {inertia.name + ".acceleration", "rad/s2", "phi'' in (9)", sum.acceleration_rad_s2.row(i).transpose()});
-  std::vector<LoadPart> own;
-  std::copy_if(parts.begin(), parts.end(), std::back_inserter(own),
-               [&](const LoadPart& x) { return x.inertia == i; });
-  if (!own.empty())
-    history.resultants.push_back(torque_on("excitation_on_" + inertia.name, "excitations on " + inertia.name,
-                                           own, n, [](const LoadPart& part) { return part.torque_Nm; }));
+  auto excitation =
+      torque_on("excitation_on_" + inertia.name, "excitations on " + inertia.name, parts, n,
+                [&](const LoadPart& part) { return part.inertia == i ? part.torque_Nm : ArrayXd(); });
+  if (!excitation.contributions.empty()) history.resultants.push_back(std::move(excitation));
   if (inertia.damping_N_m_s != 0)
     history.resultants.push_back(
         torque_on("damping_on_" + inertia.name, "drag of the ground on " + inertia.name + ", -D phi'", parts,

@@ -18,7 +18,8 @@ struct LoadPart {
 };
 
 /// Adds to a history, whose instants it has, the quantities and resultants of every inertia and element that
-/// `compute_loads` lists, with the parts as contributions.
+/// `compute_loads` lists, with the parts as contributions: the effects of the history begin with those of the
+/// parts.
 /// @param sum         motion of all parts together
 /// @param angle_text  what <inertia>.angle is measured from
 void write_parts(const DriveTrain& train, const TrainMotion& sum, const std::vector<LoadPart>& parts,

@@ -7,13 +7,6 @@
 
 namespace kinetics {
 
-LoadHistory::LoadHistory() = default;
-LoadHistory::LoadHistory(const LoadHistory&) = default;
-LoadHistory::LoadHistory(LoadHistory&&) noexcept = default;
-LoadHistory& LoadHistory::operator=(const LoadHistory&) = default;
-LoadHistory& LoadHistory::operator=(LoadHistory&&) noexcept = default;
-LoadHistory::~LoadHistory() = default;
-
 void check_grid(const TimeGrid& grid) {
   if (grid.turns < 1) refuse("turns", grid.turns, "must be at least 1");
   if (grid.instants_per_turn < 4)

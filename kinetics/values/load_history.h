@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,8 @@ struct Quantity {
 
 /// The part of a resultant that one effect brings.
 struct Contribution {
-  std::string effect;
-  Eigen::Array3Xd load;  ///< rows fx [N], fy [N], torque [N m]; 3 x n_instants
+  std::size_t effect = 0;  ///< index in LoadHistory::effects
+  Eigen::Array3Xd load;    ///< rows fx [N], fy [N], torque [N m]; 3 x n_instants
 };
 
 /// A planar load resultant by its role in the machine ("eccentric", "debalance" ...): a force through the
@@ -48,7 +49,9 @@ struct Resultant {
 struct LoadHistory {
   std::string machine;
   std::string convention;
-  std::vector<std::string> effects;   ///< the effects that were evaluated, in the order of summation
+  /// Names of the effects that were evaluated, in the order of summation, and of what balances a machine in
+  /// the place of one that is off ("drive_couple").
+  std::vector<std::string> effects;
   std::vector<std::string> warnings;  ///< sentences for the user (large pitch, reversed torque ...)
   Eigen::ArrayXd time_s;              ///< n_instants
   Eigen::ArrayXd phi_rad;      ///< drive angle: clockwise (vibratory mill), counter-clockwise (planetary)
@@ -56,14 +59,6 @@ struct LoadHistory {
   Eigen::ArrayXd acceleration_rad_s2;  ///< d2 phi / dt2
   std::vector<Quantity> quantities;
   std::vector<Resultant> resultants;
-
-  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
-  LoadHistory();
-  LoadHistory(const LoadHistory&);
-  LoadHistory(LoadHistory&&) noexcept;
-  LoadHistory& operator=(const LoadHistory&);
-  LoadHistory& operator=(LoadHistory&&) noexcept;
-  ~LoadHistory();
 
   /// @throws std::out_of_range naming the quantity if there is none of that name
   const Quantity& quantity(const std::string& name) const;

@@ -122,11 +122,11 @@ void published_over(const VibratoryMill& mill, const std::vector<NamedEffect>& e
                   "reaction R_E of the bearing supports on the machine, (42), (43)",
                   Array3Xd::Zero(3, n),
                   {}};
-  for (const NamedEffect& effect : effects) {
-    Contribution part{effect.name, Array3Xd::Zero(3, n)};
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    Contribution part{e, Array3Xd::Zero(3, n)};
     for (Index first = 0; first < n; first += block_size) {
       const Instants at = part_of(all, first, std::min(block_size, n - first));
-      for (const PlacedForce& placed : effect.evaluate(at))
+      for (const PlacedForce& placed : effects[e].evaluate(at))
         part.load.topRows<2>().middleCols(first, at.size()) -= placed.force_N;
     }
     frame.total += part.load;
@@ -141,8 +141,8 @@ void published_over(const VibratoryMill& mill, const std::vector<NamedEffect>& e
 
   if (contains(effects, "springs")) {
     const auto& springs =
-        std::find_if(frame.contributions.begin(), frame.contributions.end(), [](const Contribution& c) {
-          return c.effect == "springs";
+        std::find_if(frame.contributions.begin(), frame.contributions.end(), [&](const Contribution& c) {
+          return effects[c.effect].name == "springs";
         })->load;
     const ArrayXd from_moments_N = spring_force_from_moments_N(mill, effects, all);
     q.push_back({"spring_force", "N", "force of the springs on the machine, upward, (31)",

@@ -146,7 +146,7 @@ void write_warnings(const VibratoryMill& mill, const LoadHistory& history, bool 
 
 void write_results(const VibratoryMill& mill, const std::vector<NamedEffect>& effects, EffectSums& sums,
                    LoadHistory& history) {
-  history.resultants = sums.take_resultants(effects);
+  history.resultants = sums.take_resultants();
   const bool pitching = contains(effects, "pitch");
   write_motion(mill, effects, sums.motion, history);
   write_reactions(sums, history);

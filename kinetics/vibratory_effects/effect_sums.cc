@@ -71,15 +71,15 @@ Columns EffectSums::to_add(std::size_t role, std::size_t effect, Index first, In
   return columns;
 }
 
-std::vector<Resultant> EffectSums::take_resultants(const std::vector<NamedEffect>& effects) {
+std::vector<Resultant> EffectSums::take_resultants() {
   std::vector<Resultant> resultants;
   for (std::size_t index = 0; index < roles.size(); ++index) {
     Role& role = roles[index];
     Resultant resultant{role.name, role.description, std::move(role.total), {}};
-    for (std::size_t effect = 0; effect < effects.size(); ++effect)
+    for (std::size_t effect = 0; effect < role.shares.size(); ++effect)
       if (Share& share = role.shares[effect]; share.load.size() > 0) {
         share.load.rightCols(motion.size() - share.n_filled).setZero();
-        resultant.contributions.push_back({effects[effect].name, std::move(share.load)});
+        resultant.contributions.push_back({effect, std::move(share.load)});
       }
     const bool own_load = index == debalance || index >= inner_wall;
     if (!own_load || !resultant.contributions.empty()) resultants.push_back(std::move(resultant));

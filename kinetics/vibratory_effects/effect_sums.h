@@ -63,7 +63,7 @@ struct EffectSums {
   Columns to_add(std::size_t role, std::size_t effect, Eigen::Index first, Eigen::Index count);
   /// The roles as resultants, which takes them out of the sums. Those that only carry an effect's own load
   /// are left out if nothing was posted to them.
-  std::vector<Resultant> take_resultants(const std::vector<NamedEffect>& effects);
+  std::vector<Resultant> take_resultants();
 };
 
 /// Turns the collected sums into the history's resultants and quantities, with warnings.

@@ -47,14 +47,6 @@ struct VibratoryMill {
   double pitch_inertia_kg_m2 = 0;  ///< I_E about E', structure and exciter housing, not the charge
   std::vector<Spring> springs;     ///< `published` needs two; the x of their positions are [QE], [HE]
   ChargeLag charge_lag;
-
-  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
-  VibratoryMill();
-  VibratoryMill(const VibratoryMill&);
-  VibratoryMill(VibratoryMill&&) noexcept;
-  VibratoryMill& operator=(const VibratoryMill&);
-  VibratoryMill& operator=(VibratoryMill&&) noexcept;
-  ~VibratoryMill();
 };
 
 /// The effects that the machine knows under a convention, in the order of summation.

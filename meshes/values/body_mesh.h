@@ -134,14 +134,6 @@ struct BodyMesh {
   std::vector<StraightEdge> straight_edges;  ///< imported STEP files and keyed shafts only
   double smallest_size_m = 0;                ///< no edge of an imported STEP file's mesh is wanted shorter
   MeshQuality quality;
-
-  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
-  BodyMesh();
-  BodyMesh(const BodyMesh&);
-  BodyMesh(BodyMesh&&) noexcept;
-  BodyMesh& operator=(const BodyMesh&);
-  BodyMesh& operator=(BodyMesh&&) noexcept;
-  ~BodyMesh();
 };
 
 }  // namespace meshes

@@ -11,6 +11,7 @@ times the factors of their channels, stress(x, t) = sum over k of a_k(t) S_k(x).
 """
 
 import json
+import os
 from pathlib import Path
 from typing import NamedTuple
 
@@ -68,11 +69,7 @@ class Body:
     def __init__(self, directory, name):
         self.name = name
         self._loads = directory / "loads.h5"
-        files = [directory / name / file for file in ("unit_responses.h5", "unit_harmonics.h5")]
-        found = [file for file in files if file.exists()]
-        if not found:
-            raise FileNotFoundError(f"{directory / name}: no unit responses; a beam has none")
-        with h5py.File(found[0]) as responses:
+        with h5py.File(_responses(directory, name)) as responses:
             self.channels = [_text(channel) for channel in responses["channels"][()]]
             self.nodes_m = responses["nodes/xyz"][()]
             self.unit_stress_Pa = responses["stress"][()]
@@ -122,6 +119,22 @@ def von_mises(stress_Pa):
     """Von Mises stress of tensors, ... x 6."""
     xx, yy, zz, xy, yz, xz = np.moveaxis(np.asarray(stress_Pa), -1, 0)
     return np.sqrt(((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) / 2 + 3 * (xy**2 + yz**2 + xz**2))
+
+
+def _responses(directory, name):
+    """The file of a body's unit responses: beside the results, or in the user's cache."""
+    with open(directory / "run.json", encoding="utf-8") as file:
+        key = json.load(file)["responses"].get(name)
+    if key is None:
+        raise FileNotFoundError(f"{directory / name}: no unit responses; a beam has none")
+    cache = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    if not cache.is_absolute():
+        cache = Path.home() / ".cache"
+    for file in (directory / name / "unit_responses.h5", cache / "millstress" / f"{key}.h5"):
+        if file.exists():
+            return file
+    raise FileNotFoundError(f"{directory / name}: its unit responses are no longer in {cache / 'millstress'}; "
+                            "`millstress run --fresh` computes them, keep = \"all\" in [results] keeps them here")
 
 
 def _text(value):

@@ -63,9 +63,8 @@ Outcome row(const StepShaft& shaft, const Reference& truth, const std::string& m
             const fs::path& directory) {
   const auto scene = read(directory / (shaft.name + ".toml"), step_shafts::scene_of_step(shaft, mesh));
   pipelines::SceneRunOptions options;
-  options.directory = directory / "run";
   options.fresh = true;
-  options.keep = false;
+  options.cache = false;
   options.accuracy.tolerance = tolerance;
   pipelines::StageClock clock;
   const auto start = std::chrono::steady_clock::now();

@@ -158,4 +158,30 @@ TEST_F(Disk, ASolidsFilesAreNoExceptionToFailures) {
   try_points("from", 1);
 }
 
+// The user's cache is none of the results: where it cannot be written, a run says so and has all of them.
+TEST_F(Disk, ACacheThatFailsIsToldAndLosesNothing) {
+  prepare("solid");
+  below_ = "cache";
+  const auto cache = directory_ / "cache/millstress";
+  faults::fs::remove_all(cache);
+  const long n_operations = long(operations().size()), n = asked_for(4, n_operations);
+  ASSERT_GT(n_operations, 4);
+  long n_told = 0;
+  for (const char* kind : {"once", "from", "short"})
+    for (long i = 0; i < n && !HasFailure(); ++i) {
+      const auto what = std::string(kind) + ' ' + std::to_string(i);
+      faults::fs::remove_all(cache);
+      restore();
+      const auto outcome = run_next(failing(kind, n_operations * i / n));
+      EXPECT_EQ(outcome.exit_code, 0) << what << outcome.err;
+      EXPECT_TRUE(outcome.err.empty() || outcome.err.find("are not kept for later runs") != std::string::npos)
+          << what << outcome.err;
+      n_told += outcome.err.empty() ? 0 : 1;
+      EXPECT_EQ(difference_to_next(), "") << what;
+      const auto again = run_next();
+      EXPECT_EQ(again.err, "") << what;
+    }
+  EXPECT_GT(n_told, n) << "of " << 3 * n;
+}
+
 }  // namespace

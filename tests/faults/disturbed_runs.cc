@@ -35,13 +35,6 @@ std::string short_bar(int pull_kN) {
 
 namespace {
 
-const std::string kept = "shaft/unit_responses.h5";
-
-Files without_kept(Files files) {
-  files.erase(kept);
-  return files;
-}
-
 /// Names of two sets of files that differ, for the message of a test.
 std::string difference(const Files& found, const Files& wanted) {
   std::string names;
@@ -64,7 +57,7 @@ double stress_Pa(const Files& results) {
 }  // namespace
 
 Files results_in(const fs::path& directory) {
-  return without_kept(cases::contents(directory));
+  return cases::contents(directory);
 }
 
 void DisturbedRuns::prepare(const std::string& model) {
@@ -75,8 +68,7 @@ void DisturbedRuns::prepare(const std::string& model) {
   ASSERT_EQ(run(first + "earlier").exit_code, 0);
   restore();
   ASSERT_EQ(run(arguments_ + "out").exit_code, 0);
-  next_kept_ = cases::contents(directory_ / "out");
-  next_ = without_kept(next_kept_);
+  next_ = results_in(directory_ / "out");
   restore();
   earlier_ = results_in(directory_ / "out");
   ASSERT_NE(earlier_, next_);
@@ -98,7 +90,7 @@ cases::Outcome DisturbedRuns::run_next(const std::string& before) const {
 }
 
 std::string DisturbedRuns::failing(const std::string& kind, long at) const {
-  return "export LD_PRELOAD='" FAILING_DISK "' FAULTS_BELOW='" + (directory_ / "out").string() +
+  return "export LD_PRELOAD='" FAILING_DISK "' FAULTS_BELOW='" + (directory_ / below_).string() +
          "' FAULTS_KIND=" + kind + " FAULTS_AT=" + std::to_string(at);
 }
 
@@ -135,7 +127,7 @@ bool DisturbedRuns::expect_nothing_lost(const std::string& what) const {
   EXPECT_EQ(again.exit_code, 0) << what << ": " << again.err;
   EXPECT_EQ(again.err, "") << what;
   const auto all = cases::contents(directory_ / "out");
-  EXPECT_TRUE(same(all, next_kept_)) << what << ": the next run:" << difference(all, next_kept_);
+  EXPECT_TRUE(same(all, next_)) << what << ": the next run:" << difference(all, next_);
   for (const auto& entry : fs::recursive_directory_iterator(directory_ / "out"))
     EXPECT_NE(entry.path().filename().string()[0], '.') << what << ": left behind " << entry.path();
   return there;

@@ -20,8 +20,7 @@ long asked_for(long by_default, long all);
 /// hence a mesh and unit responses of its own. A second and a half as a solid, half of one as a beam.
 std::string short_bar(int pull_kN);
 
-/// Everything below a directory, hidden names too, without timing (cases::contents); without what is kept for
-/// later runs, whose content does not have to be that of the results.
+/// Everything below a directory, hidden names too, without timing (cases::contents).
 Files results_in(const fs::path& directory);
 
 class DisturbedRuns : public testing::Test {
@@ -36,7 +35,7 @@ protected:
   /// @param before  commands of the shell that set the stage
   cases::Outcome run_next(const std::string& before = "true") const;
 
-  /// The shell's commands that make the disk fail (failing_disk.cc).
+  /// The shell's commands that make the disk below `below_` fail (failing_disk.cc).
   std::string failing(const std::string& kind, long at) const;
 
   /// The operations on the disk that an undisturbed run takes, from the earlier results on: of each its
@@ -54,13 +53,12 @@ protected:
   /// it: then results are the same that have the same names and the same governing stress to 1e-9.
   bool bits_repeat_ = true;
   std::string arguments_;
+  std::string below_ = "out";  ///< the folder whose disk fails
   Files earlier_, next_;
 
 private:
   bool same(const Files& found, const Files& wanted) const;
   cases::Outcome run(const std::string& arguments, const std::string& before = "true") const;
-
-  Files next_kept_;
 };
 
 }  // namespace faults

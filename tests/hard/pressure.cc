@@ -94,8 +94,8 @@ TEST(HardPressure, ForceThroughZero) {
   body.name = "shaft";
   body.ports = {bodies::port("seat", meshes::Port::Kind::seat, 1, {0, 0.1}, 0.05)};
   pipelines::LoadCollector collector(body, {"one", "two"}, force.cols(), 1);
-  collector.force("seat", "one", 0.25 * force);
-  collector.force("seat", "two", 0.75 * force);
+  collector.force("seat", 0, 0.25 * force);
+  collector.force("seat", 1, 0.75 * force);
   collector.pressure("seat");
   const auto loads = collector.finish();
   const Eigen::ArrayXd cosine = bodies::course(loads, "seat.p2c"), sine = bodies::course(loads, "seat.p2s");

@@ -68,14 +68,6 @@ struct Body {
   int degree = 2;  ///< polynomial degree of displacement and of the geometry (isoparametric), 1 to 3
   /// None: a free body, whose loads inertia balances. Otherwise they hold all six rigid motions.
   std::vector<Clamp> clamps{};
-
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
-  Body();
-  Body(const Body&);
-  Body(Body&&) noexcept;
-  Body& operator=(const Body&);
-  Body& operator=(Body&&) noexcept;
-  ~Body();
 };
 
 /// Mass, first moment and inertia of the meshed body by the quadrature of its load vectors, about the origin.

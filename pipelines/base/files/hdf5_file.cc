@@ -3,6 +3,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <numeric>
 #include <type_traits>
@@ -78,6 +79,14 @@ void keep_order(hid_t list, const std::string& file) {
     fail(file, "", "cannot switch object times off");
 }
 
+/// The format of HDF5 1.10, which needs a third of the bytes around a small dataset. The attributes of an
+/// object stay in its header however many they are: those of the whole file are near its begin (kept_file.h).
+void use_format(hid_t access, hid_t creation, const std::string& file) {
+  if (H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110) < 0 ||
+      H5Pset_attr_phase_change(creation, 100, 0) < 0)
+    fail(file, "", "cannot choose the format");
+}
+
 /// Renamed files need no lock, and some network file systems have none.
 void no_lock(hid_t list, const std::string& file) {
   if (H5Pset_file_locking(list, false, true) < 0) fail(file, "", "cannot switch file locking off");
@@ -139,6 +148,17 @@ std::vector<hsize_t> chunk_of(const std::vector<hsize_t>& extent, std::size_t en
   return chunk;
 }
 
+std::size_t count_of(const std::vector<std::size_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
+/// Whether all values have the same bits.
+bool is_constant(const void* values, std::size_t n, std::size_t bytes_each) {
+  const auto* bytes = static_cast<const char*>(values);
+  return std::memcmp(bytes, bytes + bytes_each, (n - 1) * bytes_each) == 0;
+}
+
+/// Of compressed values that are all the same only the one is written, as what HDF5 fills the dataset with.
 void write_dataset(hid_t root, const std::string& file, const std::string& path, hid_t memory_type,
                    hid_t file_type, const void* values, const std::vector<std::size_t>& shape,
                    const Hdf5Label& label, Hdf5Compression compression) {
@@ -149,15 +169,19 @@ void write_dataset(hid_t root, const std::string& file, const std::string& path,
                      file, path, "no data space");
   const Handle creation = property_list(H5P_DATASET_CREATE, file);
   if (H5Pset_obj_track_times(creation, false) < 0) fail(file, path, "cannot switch object times off");
-  if (compression == Hdf5Compression::deflate && !empty) {
+  const bool compressed = compression == Hdf5Compression::deflate && !empty;
+  const bool constant =
+      compressed && values != nullptr && is_constant(values, count_of(shape), H5Tget_size(memory_type));
+  if (compressed) {
     const auto chunk = chunk_of(extent, H5Tget_size(file_type));
     if (H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data()) < 0 ||
-        H5Pset_shuffle(creation) < 0 || H5Pset_deflate(creation, 4) < 0)
+        H5Pset_shuffle(creation) < 0 || H5Pset_deflate(creation, 1) < 0 ||
+        (constant && H5Pset_fill_value(creation, memory_type, values) < 0))
       fail(file, path, "cannot compress");
   }
   Handle dataset(H5Dcreate2(root, path.c_str(), file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
                  H5Dclose, file, path, "cannot make the dataset");
-  if (!empty && values != nullptr &&
+  if (!empty && !constant && values != nullptr &&
       H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
     fail(file, path, "cannot write the dataset");
   if (!label.unit.empty()) set_text(dataset, file, path, "unit", label.unit);
@@ -174,10 +198,6 @@ std::vector<std::size_t> shape_of(hid_t dataset, const std::string& file, const 
   std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
   if (H5Sget_simple_extent_dims(space, extent.data(), nullptr) < 0) fail(file, path, "has no shape");
   return {extent.begin(), extent.end()};
-}
-
-std::size_t count_of(const std::vector<std::size_t>& shape) {
-  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
 }
 
 void read_dataset(hid_t root, const std::string& file, const std::string& path, hid_t memory_type,
@@ -225,6 +245,7 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) : file_(file.string())
   const Handle creation = property_list(H5P_FILE_CREATE, file_);
   const Handle access = property_list(H5P_FILE_ACCESS, file_);
   keep_order(creation, file_);
+  use_format(access, creation, file_);
   no_lock(access, file_);
   id_ = H5Fcreate(file_.c_str(), H5F_ACC_TRUNC, creation, access);
   if (id_ < 0) fail(file_, "", "cannot be created");
@@ -258,9 +279,8 @@ void Hdf5Writer::write(const std::string& object, const std::vector<std::string>
 }
 
 void Hdf5Writer::make(const std::string& object, const std::vector<std::size_t>& shape,
-                      const Hdf5Label& label) {
-  write_dataset(id_, file_, object, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, nullptr, shape, label,
-                Hdf5Compression::none);
+                      const Hdf5Label& label, Hdf5Compression compression) {
+  write_dataset(id_, file_, object, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, nullptr, shape, label, compression);
 }
 
 void Hdf5Writer::write_rows(const std::string& object, const double* values, std::size_t first_row,
@@ -272,6 +292,12 @@ void Hdf5Writer::write_rows(const std::string& object, const double* values, std
       fail(file_, object, "cannot write the dataset");
   }
   dataset.close(file_, object);
+}
+
+void Hdf5Writer::link(const std::string& object, const std::string& existing) {
+  make_groups(id_, file_, object.substr(0, object.rfind('/')));
+  if (H5Lcreate_hard(id_, existing.c_str(), id_, object.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
+    fail(file_, object, "cannot be another name of " + existing);
 }
 
 void Hdf5Writer::make_group(const std::string& object) {

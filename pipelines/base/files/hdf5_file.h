@@ -22,7 +22,7 @@ struct Hdf5Label {
 enum class Hdf5Compression {
   none,
   deflate
-};  ///< deflate: bytes shuffled first, one chunk of about 1 MB per piece
+};  ///< deflate: bytes shuffled first, one chunk of about 1 MB per piece; of equal values one is kept
 
 class Hdf5Writer {
 public:
@@ -40,9 +40,12 @@ public:
   void write(const std::string& object, const std::vector<double>& values, const Hdf5Label& label = {});
   void write(const std::string& object, const std::vector<std::string>& values, const Hdf5Label& label = {});
   /// A dataset of doubles whose rows, of its first index, are written by write_rows.
-  void make(const std::string& object, const std::vector<std::size_t>& shape, const Hdf5Label& label = {});
+  void make(const std::string& object, const std::vector<std::size_t>& shape, const Hdf5Label& label = {},
+            Hdf5Compression compression = Hdf5Compression::none);
   /// @param values  values of n_rows rows
   void write_rows(const std::string& object, const double* values, std::size_t first_row, std::size_t n_rows);
+  /// Gives a dataset another name, under which it is read as it is.
+  void link(const std::string& object, const std::string& existing);
   void make_group(const std::string& object);
   /// @param object  an existing group ("/" for the file as a whole) or dataset
   void attribute(const std::string& object, const std::string& name, const std::string& value);

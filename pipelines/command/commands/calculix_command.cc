@@ -13,7 +13,7 @@
 #include "pipelines/judge/analysis/judged.h"
 #include "pipelines/loads/stage/effect_closure.h"
 #include "pipelines/loads/stage/load_stage.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 #include "pipelines/scene/whole/machine_kind.h"
 #include "pipelines/search/effect_choice/effect_choice.h"
 #include "pipelines/write/files/staged_results.h"
@@ -31,7 +31,7 @@ void refuse_what_has_no_equal(const Scene& scene) {
                        ": has no body, and only bodies have a mesh to write; add one, as [shaft], to "
                        "the scene, or take `loads --calculix`");
   for (const auto& body : scene.bodies)
-    if (kind_of(body).has_elastic_feet(body))
+    if (reader_of(body).has_elastic_feet(body))
       throw StageRefused(body.origin +
                          ": elastic_feet = true: the model for CalculiX is that of a free body; set it "
                          "to false for this command");

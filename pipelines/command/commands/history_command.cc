@@ -24,6 +24,10 @@ void show_history(const HistoryCommandOptions& options, std::ostream& out) {
   if (scene.bodies.empty())
     throw StageRefused(scene.file.string() +
                        ": has no body, and only bodies have a stress; add one, as [shaft], to the scene");
+  if (scene.keep == Keep::report)
+    throw StageRefused(scene.file.string() +
+                       ": keeps the report alone, and a history is made of the loads; give --set "
+                       "'results.keep=\"results\"'");
   const auto variant = variant_of(options);
   const auto directory = own_directory(options.output, default_directory(options, "_history"), variant);
   std::string bodies;

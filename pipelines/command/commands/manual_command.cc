@@ -1,11 +1,17 @@
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <ostream>
 #include <string>
+#include <vector>
 
+#include "pipelines/base/common/errors.h"
 #include "pipelines/command/options/commands.h"
 #include "pipelines/command/options/manual.h"
+#include "pipelines/command/options/scene_options.h"
+#include "pipelines/scene/reader/scene_schema.h"
 
 namespace pipelines {
 namespace {
@@ -15,8 +21,24 @@ struct ManualOptions {
   std::string form = "man";
 };
 
+/// All shipped scenes together have every table.
+std::string schema_of_shipped() {
+  const auto folder = shipped_scenes();
+  if (folder.empty())
+    throw FileError("manual schema: the scenes that come with the program are not there; install it anew");
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<KeyForms> forms;
+  for (const auto& file : files) forms.push_back(read_scene(file).key_forms);
+  return scene_schema(forms);
+}
+
 void show_manual(const ManualOptions& options, std::ostream& out) {
-  out << (options.form == "man" ? manual_page(*options.app) : completion_script(*options.app, options.form));
+  out << (options.form == "man"      ? manual_page(*options.app)
+          : options.form == "schema" ? schema_of_shipped()
+                                     : completion_script(*options.app, options.form));
 }
 
 }  // namespace
@@ -24,9 +46,10 @@ void show_manual(const ManualOptions& options, std::ostream& out) {
 void add_manual_command(CLI::App& app, ChosenCommand& chosen) {
   auto options = std::make_shared<ManualOptions>();
   options->app = &app;
-  auto* command = app.add_subcommand("manual", "the manual page for man, or what a shell completes by");
-  command->add_option("form", options->form, "man, bash, zsh or fish")
-      ->check(CLI::IsMember({"man", "bash", "zsh", "fish"}));
+  auto* command = app.add_subcommand(
+      "manual", "the manual page for man, what a shell completes by, or the schema of scenes for editors");
+  command->add_option("form", options->form, "man, bash, zsh, fish or schema (JSON)")
+      ->check(CLI::IsMember({"man", "bash", "zsh", "fish", "schema"}));
   command->callback(to_choose(chosen, options, show_manual));
 }
 

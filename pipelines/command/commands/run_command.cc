@@ -5,6 +5,7 @@
 #include <chrono>
 #include <future>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -15,8 +16,11 @@
 #include "pipelines/base/common/failure.h"
 #include "pipelines/base/common/process_limits.h"
 #include "pipelines/base/common/several_ranks.h"
+#include "pipelines/base/disk/staging.h"
 #include "pipelines/base/files/atomic_file.h"
+#include "pipelines/base/files/content_hash.h"
 #include "pipelines/base/files/replaceable.h"
+#include "pipelines/base/files/whole_file.h"
 #include "pipelines/base/names/name_lists.h"
 #include "pipelines/base/names/typography.h"
 #include "pipelines/command/commands/run_results.h"
@@ -34,6 +38,7 @@
 #include "pipelines/loads/stage/load_stage.h"
 #include "pipelines/loads/stage/start_up_loads.h"
 #include "pipelines/respond/responses/respond.h"
+#include "pipelines/respond/responses/response_files.h"
 #include "pipelines/scene/whole/machine_kind.h"
 #include "pipelines/scene/whole/requested_method.h"
 #include "pipelines/search/effect_choice/effect_choice.h"
@@ -58,7 +63,8 @@ struct RunCommandOptions : WantedRun {
   std::filesystem::path output;  ///< directory; empty: the default
   bool fresh = false;
   bool json = false;
-  bool strict = false;  ///< a verdict of NOT OK is a failure
+  bool strict = false;          ///< a verdict of NOT OK is a failure
+  bool with_responses = false;  ///< unit responses are needed beside the results
 };
 
 const std::vector<DutyPlace>* places_of(const DutyResult& duty, const std::string& body) {
@@ -161,15 +167,22 @@ std::string table_of(const RunReport& content, const std::optional<TorsionReport
 }
 
 /// @param staged  null on ranks beside the first one, which make summary and table with it
+/// @param folder  where the other results are; not the staged one where the scene keeps the report alone
+/// @param living  of the page
 /// @param record  but for its table; without a key: this run is not to be taken for a later one
-void finish_run(const Request& request, StagedResults* staged, const RunReport& content,
-                const std::optional<TorsionReport>& torsion, RunRecord record) {
+void finish_run(const Request& request, StagedResults* staged, const std::filesystem::path& folder,
+                const RunReport& content, const std::optional<TorsionReport>& torsion, RunRecord record,
+                const LivingPage& living) {
   const auto summary = summary_json(content);
   record.table = table_of(content, torsion, print_report);
   record.full_table = table_of(content, torsion, print_full_report);
   if (staged == nullptr) return;
-  write_text_file(staged->folder() / "summary.json", summary);
-  write_html_report(staged->folder(), request.directory / "accuracy");
+  write_text_file(folder / "summary.json", summary);
+  write_html_report(folder, request.directory / "accuracy", living);
+  record.is_report_alone = folder != staged->folder();
+  if (record.is_report_alone)
+    for (const char* kept : {"summary.json", "report.html"})
+      write_text_file(staged->folder() / kept, whole_file(folder / kept).value());
   if (!are_as_noted(noted_inputs())) record.key.clear();
   write_run_record(staged->folder(), record);
   staged->publish();
@@ -233,13 +246,16 @@ void run_load_stage(const Request& request, const Scene& given, StageClock& cloc
   warn_beyond_ratings(scene.bearings, lives, loads);
   const auto duty = duty_of_loads(given, scene, loads, request.options.n_threads, clock);
   StagedResults staged(request.directory, run_names({}), "-o", request.variant);
-  clock.run("write",
-            [&] { write_load_results(staged.folder(), loads, {}, threads(request.options.n_threads)); });
+  clock.run("write", [&] { write_loads_h5(staged.folder() / "loads.h5", loads); });
   const auto torsion = torsion_of(scene, scene.machine, staged.folder(), clock);
+  Loaded loaded;
+  loaded.scene = scene;
+  loaded.loads = loads;
+  const auto living = clock.run("page", [&] { return living_page(loaded, {}, 1); });
   finish_run(
-      request, &staged,
+      request, &staged, staged.folder(),
       {scene, loads, {}, {}, clock.costs(), lives, duty ? &*duty : nullptr, torsion ? &*torsion : nullptr},
-      torsion, {request.key, {}, {}});
+      torsion, {request.key, {}, {}}, living);
 }
 
 /// The default's minute was up before its tolerance was met: told loudly, but no failure, since nobody asked.
@@ -302,6 +318,27 @@ bool is_too_late_to_draw(const RequestedAccuracy& accuracy, std::chrono::steady_
   return so_far.count() > grace * accuracy.time_limit_s;
 }
 
+/// The unit responses of a body beside its results; a beam has none. On all ranks.
+void write_responses(const std::filesystem::path& place, const SceneRun& run, const Judged& analysis) {
+  const auto key = run.kept.keys.find(analysis.scene.name);
+  if (key != run.kept.keys.end() && (is_first_rank() || analysis.responses.shared))
+    write_unit_responses(place / responses_file_names().front(), key->second, analysis.responses);
+}
+
+/// Harmonics around the axis are not taken by later runs, but by those who read stress over the cycle.
+void keep_harmonics(SceneRun& run, StageClock& clock) {
+  for (const auto& analysis : run.analyses)
+    if (analysis.method == Method::axisymmetric)
+      run.kept.keep(analysis, key_of_harmonics(analysis.responses), clock);
+}
+
+/// The run's unit responses, by the hashes of their keys.
+std::map<std::string, std::string> hashes_of(const KeptResponses& kept) {
+  std::map<std::string, std::string> hashes;
+  for (const auto& [body, key] : kept.keys) hashes[body] = text_hash(key);
+  return hashes;
+}
+
 /// The files of all bodies, and the loads'. While one body is drawn, another thread writes what comes next.
 /// @param start  start of the run, for its limit of time
 /// @return why pictures are missing
@@ -313,10 +350,14 @@ std::vector<std::string> write_and_draw(const Request& request, const Scene& sce
   const auto place = [&](std::size_t i) { return folder / run.analyses[i].scene.name; };
   const auto write = [&](std::size_t i) {
     wait_for_ranks();
-    if (i < run.analyses.size())
+    if (i < run.analyses.size()) {
       write_body_results(place(i), run.loaded.scene, loads, run.analyses[i], n_ranks, n_threads);
-    else if (is_first_rank())
-      write_load_results(folder, loads, run.loaded.channels(), n_threads);
+      if (scene.keep == Keep::all) write_responses(place(i), run, run.analyses[i]);
+    } else if (is_first_rank()) {
+      write_loads_h5(folder / "loads.h5", loads, run.loaded.channels());
+      if (scene.keep == Keep::all)
+        write_loads_csv(folder / "loads.csv", loads, run.loaded.channels(), n_threads);
+    }
   };
   const bool beside = scene.pictures && n_threads > 1 && n_ranks == 1;  // ranks stay in step
   const auto policy = beside ? std::launch::async : std::launch::deferred;
@@ -351,11 +392,14 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   fem::on_first_rank(ranks_of_a_body(), [&] {
     staged.emplace(request.directory, run_names(body_names(scene)), "-o", request.variant);
   });
-  const auto folder = staged ? staged->folder() : std::filesystem::path();
-  SceneRunOptions run_options{staged ? staged->directory() : request.directory, options.n_threads,
-                              options.fresh, true, accuracy};
+  std::optional<Staging> aside;  // of what is not kept
+  if (staged && scene.keep == Keep::report) aside.emplace(OpenDirectory::at(staged->directory()));
+  const auto folder = aside ? aside->folder().path() : staged ? staged->folder() : std::filesystem::path();
+  SceneRunOptions run_options{options.n_threads, options.fresh, true, accuracy};
   run_options.duty = !scene.duty.empty();
   auto run = run_scene(scene, run_options, clock);
+  keep_harmonics(run, clock);
+  for (const auto& fault : run.kept.faults) std::cerr << "millstress: " << fault << '\n';
   std::optional<DutyResult> duty;
   if (run_options.duty) {
     duty = run_duty(scene, run, options.n_threads, clock);
@@ -366,16 +410,18 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
   warn_of_damage(run);
   const auto default_warnings = accuracy.by_default ? warn_of_default(run) : std::vector<std::string>();
   const auto& loads = run.loaded.loads;
-  RunRecord record{is_kept(run, accuracy) ? request.key : "", run.kept_under, default_warnings};
+  RunRecord record{is_kept(run, accuracy) ? request.key : "", hashes_of(run.kept), default_warnings};
   for (const auto& fault : write_and_draw(request, scene, run, duty ? &*duty : nullptr, folder, start, clock))
     record.warnings.push_back(fault);
   if (duty && staged) clock.run("write", [&] { write_duty(folder / "duty.csv", *duty); });
   const Scene reported = with_machine(run.loaded.scene, run.loaded.masses.machine);
   const auto torsion = torsion_of(reported, reported.machine, folder, clock);
-  finish_run(request, staged ? &*staged : nullptr,
+  const auto living =
+      clock.run("page", [&] { return living_page(run.loaded, run.analyses, threads(options.n_threads)); });
+  finish_run(request, staged ? &*staged : nullptr, folder,
              {reported, loads, run.analyses, run.loaded.masses.figures, clock.costs(), run.loaded.bearings,
               duty ? &*duty : nullptr, torsion ? &*torsion : nullptr},
-             torsion, std::move(record));
+             torsion, std::move(record), living);
   wait_for_ranks();
   if (!run.met() && !accuracy.by_default)
     throw ToleranceNotMet("the tolerance is not met; the results are kept");
@@ -384,7 +430,8 @@ void run_bodies(const Request& request, const Scene& scene, StageClock& clock) {
 /// Prints what the last run printed, if this one would be the same and its results are there, whole.
 bool is_unchanged(const Request& request, const Scene& scene) {
   if (request.options.fresh) return false;
-  const auto earlier = earlier_run(request.directory, body_names(scene), request.key);
+  const auto earlier =
+      earlier_run(request.directory, body_names(scene), request.key, request.options.with_responses);
   if (!earlier) return false;
   for (const auto& warning : earlier->record.warnings) std::cerr << warning << '\n';
   if (request.options.verbosity() != Verbosity::quiet)
@@ -442,6 +489,7 @@ void bring_up_to_date(const WantedRun& wanted, const std::filesystem::path& dire
   RunCommandOptions options;
   static_cast<WantedRun&>(options) = wanted;
   options.output = directory;
+  options.with_responses = true;
   std::ostringstream table;  // not shown
   run(options, table);
 }

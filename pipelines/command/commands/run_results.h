@@ -18,7 +18,7 @@ struct WantedRun : SceneOptions {
 void add_run_options(CLI::App& command, WantedRun& options, ChosenCommand& chosen);
 
 /// Runs the scene as `millstress run` does, without its table, unless the directory has the results of it as
-/// it is.
+/// it is, and unit responses are there.
 /// @throws what the run throws; ToleranceNotMet with the results in their places
 void bring_up_to_date(const WantedRun& wanted, const std::filesystem::path& directory);
 

@@ -76,6 +76,9 @@ void add_ports_command(CLI::App& app, ChosenCommand& chosen);
 /// to results/<scene's name>. Solves nothing.
 void add_calculix_command(CLI::App& app, ChosenCommand& chosen);
 
+/// `millstress compare`: result directories and scenes side by side. -o: a directory of files.
+void add_compare_command(CLI::App& app, ChosenCommand& chosen);
+
 /// `millstress report`: report.html of a result directory, anew.
 void add_report_command(CLI::App& app, ChosenCommand& chosen);
 
@@ -85,6 +88,9 @@ void add_init_command(CLI::App& app, ChosenCommand& chosen);
 /// `millstress check`: validates; prints effects, defaults, ports, channels and the size of the model; solves
 /// nothing.
 void add_check_command(CLI::App& app, ChosenCommand& chosen);
+
+/// `millstress cache`: what the user's cache holds; empties it.
+void add_cache_command(CLI::App& app, ChosenCommand& chosen);
 
 /// `millstress materials`: the library of materials that scenes name.
 void add_materials_command(CLI::App& app, ChosenCommand& chosen);

@@ -8,9 +8,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Where scenes that come with the program lie, from the program's own place: installed, or in its build.
-constexpr const char* scene_folders[] = {"../share/millstress/scenes", "../pipelines/scenes"};
+constexpr const char* scene_folders[] = {"../../share/millstress/scenes", "../pipelines/scenes"};
 
-/// A name without a folder and an ending that is no file here may be a scene that comes with the program.
+}  // namespace
+
 std::string file_of_scene(const std::string& scene) {
   std::error_code none;
   fs::path name(scene);
@@ -18,14 +19,17 @@ std::string file_of_scene(const std::string& scene) {
       fs::exists(fs::symlink_status(name, none)))
     return scene;
   name += ".toml";
-  const auto program = fs::read_symlink("/proc/self/exe", none).parent_path();
-  for (const auto* folder : scene_folders)
-    if (const auto file = (program / folder / name).lexically_normal(); fs::is_regular_file(file, none))
-      return file.string();
-  return scene;
+  const auto file = shipped_scenes() / name;
+  return fs::is_regular_file(file, none) ? file.string() : scene;
 }
 
-}  // namespace
+fs::path shipped_scenes() {
+  std::error_code none;
+  const auto program = fs::read_symlink("/proc/self/exe", none).parent_path();
+  for (const auto* folder : scene_folders)
+    if (auto scenes = (program / folder).lexically_normal(); fs::is_directory(scenes, none)) return scenes;
+  return {};
+}
 
 Verbosity SceneOptions::verbosity() const {
   return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;

@@ -23,6 +23,12 @@ struct SceneOptions {
 
 constexpr int all_cores = 0;  ///< threads of a command without --threads
 
+/// The folder of the scenes that come with the program; empty: they are not where they should be.
+std::filesystem::path shipped_scenes();
+
+/// A name without a folder and an ending that is no file here may be a scene that comes with the program.
+std::string file_of_scene(const std::string& scene);
+
 /// A subcommand with the scene, --set, -q and -v.
 CLI::App* add_scene_command(CLI::App& app, const char* name, const char* description, SceneOptions& options);
 

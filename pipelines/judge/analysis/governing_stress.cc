@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "pipelines/judge/analysis/load_patch.h"
+#include "pipelines/judge/estimates/fitted.h"
 
 namespace pipelines {
 namespace {
@@ -47,11 +48,6 @@ double error_of_cheap_model_Pa(const Judged& analysis, double value_Pa, double z
       errors.of("eccentric_segments") / analysis.peak.value_Pa * largest_Pa + errors.of("offset_axis");
   return std::max(own_Pa, times * of_segments_Pa);
 }
-
-/// Where a fillet of an eccentric segment has its largest stress, the offset is at its most for that; on the
-/// side of the lower step harmonics are further off: 162 and 76 MPa where solids have 121 and 59, and the
-/// shares of the largest stress are 20 and 9 MPa.
-constexpr double times_elsewhere_on_fillet = 2.5;
 
 double of_load_patches_Pa(const ErrorBudget& errors) {
   return errors.of("load_patches") + errors.of("charge_patch");
@@ -105,9 +101,10 @@ std::optional<double> error_Pa(const Judged& analysis, const Zone& zone) {
   if (zone.peak_node == analysis.peak.node) return analysis.peak.errors.reducible_Pa();
   if (!zone.error_Pa) return std::nullopt;
   return *zone.error_Pa +
-         error_of_cheap_model_Pa(
-             analysis, zone.peak_Pa, zone.peak_m[2],
-             is_maximum_of_its_place(analysis, zone.feature, zone.peak_node) ? 1 : times_elsewhere_on_fillet);
+         error_of_cheap_model_Pa(analysis, zone.peak_Pa, zone.peak_m[2],
+                                 is_maximum_of_its_place(analysis, zone.feature, zone.peak_node)
+                                     ? 1
+                                     : fitted::times_elsewhere_on_fillet);
 }
 
 double error_Pa(const Judged& analysis, const PlaceStress& place) {
@@ -121,9 +118,10 @@ double model_error_share(const Judged& analysis, const std::string& feature, std
                of_loads = all - share_of_cheap_model(analysis);
   const double value_Pa = analysis.envelope.von_mises.value_Pa[node];
   if (!(value_Pa > 0)) return all;
-  return of_loads + error_of_cheap_model_Pa(
-                        analysis, value_Pa, analysis.responses.nodes.xyz_m[3 * node + 2],
-                        is_maximum_of_its_place(analysis, feature, node) ? 1 : times_elsewhere_on_fillet) /
+  return of_loads + error_of_cheap_model_Pa(analysis, value_Pa, analysis.responses.nodes.xyz_m[3 * node + 2],
+                                            is_maximum_of_its_place(analysis, feature, node)
+                                                ? 1
+                                                : fitted::times_elsewhere_on_fillet) /
                         value_Pa;
 }
 

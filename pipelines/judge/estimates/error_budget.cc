@@ -7,6 +7,7 @@
 #include <set>
 
 #include "fem/stress/cells/cell_stress_at_node.h"
+#include "pipelines/judge/estimates/fitted.h"
 #include "pipelines/judge/estimates/solved_pressure.h"
 #include "pipelines/judge/estimates/submodels.h"
 #include "pipelines/judge/estimates/tetrahedra_estimate.h"
@@ -82,13 +83,6 @@ double discretisation_error(const StressPoint& point, const fem::UnitResponses& 
 }
 
 }  // namespace
-
-ErrorBudget::ErrorBudget() = default;
-ErrorBudget::ErrorBudget(const ErrorBudget&) = default;
-ErrorBudget::ErrorBudget(ErrorBudget&&) noexcept = default;
-ErrorBudget& ErrorBudget::operator=(const ErrorBudget&) = default;
-ErrorBudget& ErrorBudget::operator=(ErrorBudget&&) noexcept = default;
-ErrorBudget::~ErrorBudget() = default;
 
 double ErrorBudget::numerical_Pa() const {
   return sum_of(numerical);
@@ -182,15 +176,11 @@ double cancellation_error_Pa(const std::vector<std::array<double, 6>>& unit, con
 }
 
 /// How much too low a stress may come out because cells of degree 1 and 2 cannot keep the volume of an almost
-/// incompressible material; the recovered stress does not see it. Fitted to the fillets of a stepped shaft
-/// (tests/cases/program/stepped_shaft.h, 4 to 8 cells on a quarter) against axisymmetric harmonics of degree
-/// 3, which the same material changes by 0.2 %: beyond what nu = 0.3 shows, 1, 3, 12 and 27 % are missing at
-/// nu = 0.49, 0.495, 0.499 and 0.4999; twice the curve through these.
+/// incompressible material; the recovered stress does not see it. By fitted.h.
 double locking_share(const fem::UnitResponses& responses, const fem::Material& material) {
-  constexpr double from = 0.45, most = 0.6, half_way = 1.5e-3;
   const bool is_of_cells = !responses.energy_error.norm_sqrtJ.empty();
-  if (!is_of_cells || responses.nodes.degree > 2 || material.poisson_ratio <= from) return 0;
-  return most / (1 + (1 - 2 * material.poisson_ratio) / half_way);
+  if (!is_of_cells || responses.nodes.degree > 2 || material.poisson_ratio <= fitted::locking_from) return 0;
+  return fitted::locking_most / (1 + (1 - 2 * material.poisson_ratio) / fitted::locking_half_way);
 }
 
 }  // namespace

@@ -34,14 +34,6 @@ struct ErrorBudget {
   std::vector<ErrorEntry> numerical;  ///< errors of the calculation: finer runs make them smaller
   std::vector<ErrorEntry> model;      ///< errors of assumptions that no mesh mends
 
-  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
-  ErrorBudget();
-  ErrorBudget(const ErrorBudget&);
-  ErrorBudget(ErrorBudget&&) noexcept;
-  ErrorBudget& operator=(const ErrorBudget&);
-  ErrorBudget& operator=(ErrorBudget&&) noexcept;
-  ~ErrorBudget();
-
   double numerical_Pa() const;
   double total_Pa() const;
   /// What a finer mesh or a more expensive model lowers: all but the loads' own shape and what the scene

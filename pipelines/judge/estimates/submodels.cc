@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fem/refine/submodel/submodel.h"
+#include "pipelines/judge/estimates/fitted.h"
 
 namespace pipelines {
 namespace {
@@ -73,7 +74,7 @@ void resolve_hot_spots(const std::vector<meshes::HotSpot>& of_mesh, const fem::U
                        const std::vector<HotSpotStress>& known) {
   double largest_Pa = 0;      // largest stress of the toes that are resolved
   for (auto& spot : spots) {  // in descending order: the first that cannot lead ends it
-    if (spot.von_mises_Pa * (1 + largest_error_of_toes) < largest_Pa) break;
+    if (spot.von_mises_Pa * (1 + fitted::largest_error_of_toes) < largest_Pa) break;
     if (fem::is_on_load(responses, body, loads.unit_loads, nodes_of(stress_point(spot)))) continue;
     const auto& drawn = *find(of_mesh, spot.name);
     if (const auto* before = find(known, spot.name); before != nullptr && before->resolved) {

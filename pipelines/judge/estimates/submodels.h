@@ -23,13 +23,6 @@ inline constexpr const char* submodel_method =
 double submodel_error_Pa(const StressPoint& point, const fem::UnitResponses& responses, const fem::Body& body,
                          const BodyLoads& loads, const fem::LeftOut& left_out);
 
-/// Error that toes may have that are not resolved: less than their own cells tell, which end at the toe.
-/// Source: submodels move the stress of toes by 3 to 22 % on meshes of a search.
-inline constexpr double largest_error_of_toes = 0.5;
-/// Longest face at the toe for which that holds, in plate thicknesses. Source: toes of the default chamber,
-/// which show down to two fifths of their stress with faces of 0.8, an eighth with 1.6.
-inline constexpr double longest_face_walls = 0.5;
-
 /// Solves the largest toes once more in submodels: all that may hold the largest stress as long as no toe is
 /// off by more than largest_error_of_toes; but for those on a loaded surface, which a
 /// submodel holds. Their stress over the cycle is the submodel's, on two layers of cells around both

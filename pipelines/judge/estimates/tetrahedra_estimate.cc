@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fem/stress/cells/tetrahedra_error.h"
+#include "pipelines/judge/estimates/fitted.h"
 
 namespace pipelines {
 
@@ -15,7 +16,8 @@ ErrorEntry tetrahedra_estimate(const StressPoint& point, const fem::UnitResponse
     if (off_Pa == 0) continue;
     const double d = off_Pa / std::max(stress_Pa, off_Pa);
     sum_Pa += std::abs(part.weight) * off_Pa *
-              std::max(tetrahedra_factor * std::pow(d, tetrahedra_exponent - 1), tetrahedra_least_share);
+              std::max(fitted::tetrahedra_factor * std::pow(d, fitted::tetrahedra_exponent - 1),
+                       fitted::tetrahedra_least_share);
   }
   return {"discretisation", tetrahedra_method, sum_Pa, 1};
 }

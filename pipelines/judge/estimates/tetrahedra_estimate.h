@@ -12,10 +12,7 @@ namespace pipelines {
 /// the size of the cells. (A single cell's stress at its corner is no yardstick: it is off by 10 to 70 times
 /// the error of the recovered one.)
 ///   error / stress = max(12 d^(3/2), d / 2)
-/// Calibrated by tests/benchmarks/run step_parts: five shafts, 8 to 26 cells around a circle. Costs nothing,
-/// and tells which places are worth a submodel.
-inline constexpr double tetrahedra_factor = 12, tetrahedra_exponent = 1.5, tetrahedra_least_share = 0.5;
-
+/// (fitted.h). Costs nothing, and tells which places are worth a submodel.
 inline constexpr const char* tetrahedra_method =
     "recovered stress against the cells around, to the power of their orders";
 

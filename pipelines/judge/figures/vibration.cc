@@ -12,7 +12,8 @@
 #include "kinetics/series/harmonics.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/common/several_ranks.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/loads/stage/load_maker.h"
+#include "pipelines/scene/whole/body_reader.h"
 #include "pipelines/superpose/envelope/superposition.h"
 
 namespace pipelines {
@@ -212,10 +213,10 @@ DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int
 fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed) {
   fem::Body body = meshed.body;
   body.elastic_supports.clear();
-  const BodyKind& kind = kind_of(scene);
-  for (const auto& name : kind.supporting_ports(scene)) {
+  const BodyReader& reader = reader_of(scene);
+  for (const auto& name : reader.supporting_ports(scene)) {
     const auto& port = find(meshed.mesh.ports, name);
-    if (kind.is_clamped(scene)) {
+    if (reader.is_clamped(scene)) {
       body.clamps.push_back({port.boundary_id, {true, true, true}});
       continue;
     }
@@ -234,14 +235,15 @@ Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody&
   for (const auto& mode : fem::Model(held, ranks_of_a_body())
                               .natural_frequencies(body.natural_frequencies, attached_to(body, meshed.mesh)))
     result.natural_frequencies.push_back({mode.frequency_Hz, mode.error * mode.frequency_Hz});
-  const BodyKind& kind = kind_of(body);
-  const auto ports = kind.supporting_ports(body);
-  result.held = ports.empty() ? "free" : (kind.is_clamped(body) ? "held at " : "pinned at ") + joined(ports);
+  const BodyReader& reader = reader_of(body);
+  const auto ports = reader.supporting_ports(body);
+  result.held =
+      ports.empty() ? "free" : (reader.is_clamped(body) ? "held at " : "pinned at ") + joined(ports);
   const double period_s = (loads.time_s[1] - loads.time_s[0]) * scene.sampling.instants_per_turn;
   std::vector<bool> across;
   for (const auto& channel : channels.channels) across.push_back(is_across(channel.name));
   const LoadLines lines(channels.values, across, scene.sampling.turns, 1 / period_s,
-                        kind.spins_Hz(scene, body, loads));
+                        load_maker_of(body).spins_Hz(scene, body, loads));
   const auto resonance = [&](const std::vector<ShakenPlace>& all) {
     std::vector<DynamicAmplification> dynamic;
     for (const auto& place : all)

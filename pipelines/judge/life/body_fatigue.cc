@@ -297,7 +297,7 @@ double effective_diameter(const Responded& analysis) {
 
 /// Judges the place that is used most with the size of every kind of material of the group. Cycles are
 /// counted along the direction of the strength as given.
-void take_sizes(const Judged& analysis, const FatiguePlaces& search, const FatigueRules& rules,
+void take_sizes(const Responded& analysis, const FatiguePlaces& search, const FatigueRules& rules,
                 const LoadPeriod& period, BodyFatigue& fatigue) {
   fatigue.effective_diameter_m = effective_diameter(analysis);
   if (!(fatigue.effective_diameter_m > 0) || fatigue.places.empty() || rules.scene().endurance_Pa) return;

@@ -10,7 +10,7 @@
 #include "pipelines/judge/stages/place_errors.h"
 #include "pipelines/judge/stages/zone_volume_errors.h"
 #include "pipelines/respond/responses/respond.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 #include "pipelines/superpose/envelope/finite_stress.h"
 #include "pipelines/superpose/envelope/stress_shares.h"
 #include "pipelines/superpose/envelope/zone_parts.h"
@@ -18,7 +18,7 @@
 namespace pipelines {
 namespace {
 
-Peak headline(const Judged& analysis) {
+Peak headline(const Superposed& analysis) {
   const auto& maximum = analysis.envelope.von_mises;
   Peak peak;
   peak.node = peak_node(maximum.value_Pa, analysis.places);
@@ -116,7 +116,7 @@ Judged judge_body(Superposed superposed, const MeshedBody& meshed, bool needs_su
   if (const ShaftShape* shaft = body.shaft(); shaft != nullptr && judged.mesh.sections.size() > 1)
     judged.diagrams = clock.run("sections", [&] {
       return section_diagrams(judged.loads, judged.responses, judged.mesh, shaft->geometry,
-                              body.material.density_kg_m3, kind_of(body).supporting_ports(body));
+                              body.material.density_kg_m3, reader_of(body).supporting_ports(body));
     });
   return judged;
 }

@@ -13,16 +13,12 @@
 #include "pipelines/judge/analysis/governing_stress.h"
 #include "pipelines/judge/analysis/load_patch.h"
 #include "pipelines/judge/estimates/fineness.h"
+#include "pipelines/judge/estimates/fitted.h"
 #include "pipelines/judge/estimates/solved_pressure.h"
 #include "pipelines/judge/estimates/submodels.h"
 
 namespace pipelines {
 namespace {
-
-/// A bored shaft may have a single cell through its wall. In a disc that spins, whose outer radius is four
-/// times the inner, the stress at the bore was off by 4.4 times what single cells differ by;
-/// discretisation_safety takes three.
-constexpr double safety_of_few_rows = 1.5;
 
 bool is_bore(const meshes::BodyMesh& mesh, const std::string& feature) {
   return std::any_of(mesh.features.begin(), mesh.features.end(), [&](const auto& known) {
@@ -35,23 +31,20 @@ bool is_of_blocks(const Responded& analysis) {
 }
 
 /// Relative error of a fillet's stress with so many cells on its quarter. Cells that were cut amid larger
-/// ones say less than an even mesh: four of them were up to 21 % off.
+/// ones say less than an even mesh.
 double for_want_of_cells(const Responded& analysis, int cells) {
-  const double of_four = analysis.scene.refinements.empty() ? 0.15 : 0.25;
-  return cells < 4 ? 0.5 : cells < 6 ? of_four : 0.04;
+  if (cells < 4) return fitted::below_4_cells;
+  if (cells >= 6) return fitted::from_6_cells;
+  return analysis.scene.refinements.empty() ? fitted::below_6_cells : fitted::below_6_cells_refined;
 }
 
-/// Relative error of the stress on the border of what is left out around a sharp edge, by cells_to_border.
-/// At shoulders of blocks cells that touch the edge disturb those beside them; solids were 17 % too high
-/// with one cell, 5.5 % with 2.5, 1.2 % with 5, while the changes from mesh to mesh told of a third. With
-/// tetrahedra, within one cell of the edge the stress is as steep as the interpolant of r^0.54, 34 % too
-/// high, so that a quarter of it is not there (tests/unit/fem/stress/recovery/sharp_edges_have_two_sides.cc);
-/// from one cell on it falls as beside blocks, 3 to 4 % with two (tests/verification/sharp_edges).
+/// Relative error of the stress on the border of what is left out around a sharp edge, by cells_to_border:
+/// cells that touch the edge disturb those beside them.
 double for_want_of_cells_to_border(double cells, bool of_tetrahedra) {
-  constexpr double order = 1.25, within_first_tetrahedron = 0.25, of_one_tetrahedron = 0.12,
-                   of_one_block = 0.2;
-  return of_tetrahedra ? std::min(within_first_tetrahedron, of_one_tetrahedron / std::pow(cells, order))
-                       : of_one_block / std::pow(cells, order);
+  const double decay = std::pow(cells, fitted::border_order);
+  return of_tetrahedra
+             ? std::min(fitted::border_within_first_tetrahedron, fitted::border_of_one_tetrahedron / decay)
+             : fitted::border_of_one_block / decay;
 }
 
 double geometry_share_at(const StressPoint& point, const Responded& analysis) {
@@ -65,10 +58,6 @@ double own_error_Pa(const Superposed& analysis, const StressPoint& point) {
                                              analysis.scene.material, analysis.places.excluded);
   return entry ? entry->value_Pa : 0;
 }
-
-/// What cells around tell of a place that a submodel should have looked at: the estimate is calibrated on the
-/// largest places of shafts, and cells around one node agree by chance.
-constexpr double unasked_safety = 2;
 
 /// Bodies of tetrahedra: every place that, as far as single cells tell, may exceed the largest value is
 /// looked at by a submodel, as long as there is time. Beside a spring or a clamp, which holds the submodel's
@@ -101,7 +90,7 @@ void ask_submodels(const Superposed& analysis, double largest_Pa, double seconds
       place.is_resolved = true;
     }
   } catch (const fem::OutOfTime&) {
-    std::for_each(next, may_lead.end(), [](auto* place) { place->error_Pa *= unasked_safety; });
+    std::for_each(next, may_lead.end(), [](auto* place) { place->error_Pa *= fitted::unasked_safety; });
   }
 }
 
@@ -114,7 +103,8 @@ std::optional<double> error_by_cells_Pa(const Superposed& analysis, const std::s
   const auto entry = discretisation_estimate(point, analysis.responses, loads, analysis.scene.material,
                                              analysis.places.excluded);
   if (!entry) return std::nullopt;
-  const double safety = is_of_blocks(analysis) && is_bore(analysis.mesh, feature) ? safety_of_few_rows : 1;
+  const double safety =
+      is_of_blocks(analysis) && is_bore(analysis.mesh, feature) ? fitted::safety_of_few_rows : 1;
   const int cells = cells_on_quarter(analysis, {feature, node});
   if (cells == 0) return safety * entry->value_Pa;
   const double value_Pa = von_mises_of(unit_stress_at(analysis.responses, point), loads.values.col(instant));
@@ -152,9 +142,10 @@ std::vector<PlaceStress> weld_toes(const Judged& analysis) {
   std::vector<PlaceStress> places;
   for (const auto& spot : analysis.hot_spots) {
     const double own_Pa = own_error_Pa(analysis, stress_point(spot));
-    const bool is_coarse = spot.face_walls > longest_face_walls;
-    const double error_Pa =
-        spot.resolved || is_coarse ? own_Pa : std::min(own_Pa, largest_error_of_toes * spot.von_mises_Pa);
+    const bool is_coarse = spot.face_walls > fitted::longest_face_walls;
+    const double error_Pa = spot.resolved || is_coarse
+                                ? own_Pa
+                                : std::min(own_Pa, fitted::largest_error_of_toes * spot.von_mises_Pa);
     places.push_back({spot.name, spot.near_node, spot.von_mises_Pa, error_Pa, spot.toe_m,
                       spot.resolved != nullptr, is_coarse ? own_Pa : 0});
   }
@@ -238,10 +229,10 @@ std::vector<PlaceStress> places_of_one_mesh(const Judged& analysis, double submo
     if (const int cells = cells_on_quarter(analysis, place); cells > 0) {
       const double wanting_Pa = for_want_of_cells(analysis, cells) * place.value_Pa;
       place.error_Pa = std::max(place.error_Pa, wanting_Pa);
-      if (cells < cells_that_converge) place.least_error_Pa = wanting_Pa;
-      place.has_fine_cells = cells_meshed(analysis.scene, place.feature) >= cells_that_converge;
+      if (cells < fitted::cells_that_converge) place.least_error_Pa = wanting_Pa;
+      place.has_fine_cells = cells_meshed(analysis.scene, place.feature) >= fitted::cells_that_converge;
     } else if (of_blocks && is_bore(analysis.mesh, place.feature)) {
-      place.error_Pa *= safety_of_few_rows;
+      place.error_Pa *= fitted::safety_of_few_rows;
     }
     if (const double cells = of_blocks || of_tetrahedra ? cells_to_border(analysis, place) : 0; cells > 0) {
       const double wanting_Pa = for_want_of_cells_to_border(cells, of_tetrahedra) * place.value_Pa;

@@ -9,11 +9,6 @@
 
 namespace pipelines {
 
-/// With fewer cells on its quarter a fillet's stress does not converge with its order yet. Two meshes may
-/// agree that are both wrong: a stress of 152 MPa was 130 with two cells and 132 with four. And 3 of 12
-/// shafts halved from 4 to 8 cells were off by up to 1.4 times what second order made of the change.
-constexpr int cells_that_converge = 6;
-
 /// Share of the largest stress: below it a place is taken to be as wrong as it can be.
 constexpr double share_worth_a_look = 0.4;
 

@@ -7,7 +7,7 @@
 #include "pipelines/base/common/constants.h"
 #include "pipelines/judge/estimates/time_sampling.h"
 #include "pipelines/loads/channels/load_figures.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/loads/stage/load_maker.h"
 
 namespace pipelines {
 namespace {
@@ -275,7 +275,7 @@ std::vector<ElementTorsion> element_torsion(const Judged& analysis, const kineti
   std::vector<ElementTorsion> elements;
   const auto* shaft = analysis.scene.shaft();
   if (!analysis.diagrams || shaft == nullptr) return elements;
-  const auto ports = kind_of(analysis.scene).element_ports(analysis.scene);
+  const auto ports = load_maker_of(analysis.scene).element_ports(analysis.scene);
   if (ports.empty()) return elements;
   const auto between = between_instants(analysis.loads.history);
   std::vector<double> middles_m;

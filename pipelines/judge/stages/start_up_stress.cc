@@ -6,7 +6,7 @@
 
 #include "pipelines/judge/stages/place_errors.h"
 #include "pipelines/judge/stages/shaft_torsion.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/loads/stage/load_maker.h"
 #include "pipelines/superpose/envelope/finite_stress.h"
 #include "pipelines/superpose/envelope/stress_shares.h"
 
@@ -65,7 +65,7 @@ StartUpStress start_up_stress(const Judged& analysis, const StartUp& start,
   result.drive_speed_rad_s = start.loads.speed_rad_s;
   add_peak(analysis, loads, n_threads, result);
   result.ring = largest_ring(analysis, loads, result.time_s);
-  for (const auto& at : kind_of(analysis.scene).element_ports(analysis.scene)) {
+  for (const auto& at : load_maker_of(analysis.scene).element_ports(analysis.scene)) {
     StartUpElement element{at.element, at.port, start.loads.resultant(at.role).total.row(2).transpose(), {}};
     Index largest = 0;
     element.torque_Nm.abs().maxCoeff(&largest);

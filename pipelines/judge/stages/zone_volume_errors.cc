@@ -9,6 +9,7 @@
 #include "fem/stress/cells/cell_stress_at_node.h"
 #include "fem/stress/cells/region_volume.h"
 #include "pipelines/judge/analysis/governing_stress.h"
+#include "pipelines/judge/estimates/fitted.h"
 #include "pipelines/judge/stages/place_errors.h"
 #include "pipelines/superpose/envelope/disjoint_sets.h"
 
@@ -17,9 +18,6 @@ namespace {
 
 /// Share of the zones' level: a node below it is not doubted by its cells.
 constexpr double worth_a_look = 0.2;
-/// Multiplies the differences of cells between a straight and a curved stress: harmonics had 2036 and 2070
-/// mm3 where finer solids come to 2116.
-constexpr double safety_between_nodes = 1.5;
 
 /// Shares of error of the features that are judged. Far below the largest stress a place's error is the
 /// stress itself, and tells nothing.
@@ -181,7 +179,7 @@ void estimate_volume_errors(Judged& analysis) {
   for (std::size_t z = 0; z < peaks.size(); ++z) {
     auto& zone = analysis.zones.zones[z];
     zone.volume_error_m3 = std::max(most_m3[z] - zone.volume_m3, zone.volume_m3 - least_m3[z]) +
-                           safety_between_nodes * between_m3[z];
+                           fitted::safety_between_nodes * between_m3[z];
   }
 }
 

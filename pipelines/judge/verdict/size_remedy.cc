@@ -16,7 +16,7 @@
 #include "pipelines/judge/figures/stress_gradient.h"
 #include "pipelines/judge/life/body_fatigue.h"
 #include "pipelines/judge/verdict/local_laws.h"
-#include "pipelines/scene/values/effect_names.h"
+#include "pipelines/scene/kinds/body_names.h"
 
 namespace pipelines {
 namespace {
@@ -45,21 +45,21 @@ Eigen::ArrayXd taken_from(const Columns& columns, const TooLarge& stress) {
 }
 
 /// The instant next to one between them; the last is followed by the first.
-Index nearest_instant(const Judged& analysis, double instant) {
+Index nearest_instant(const Responded& analysis, double instant) {
   return Index(std::llround(instant)) % analysis.loads.history.values.cols();
 }
 
-double own_share(const Judged& analysis, const std::vector<double>& effect_share) {
+double own_share(const Responded& analysis, const std::vector<double>& effect_share) {
   double sum = 0;
   const auto& effects = analysis.loads.history.effects;
   for (std::size_t e = 0; e < effects.size() && e < effect_share.size(); ++e)
-    for (const auto* own : {effect_name::drum_gravity, effect_name::drum_transport, "drum_spin"})
+    for (const auto* own : {effect_name::drum_gravity, effect_name::drum_transport, DrumNames::spin})
       if (effects[e] == own) sum += effect_share[e];
   return std::clamp(sum, 0.0, 1.0);
 }
 
 /// What a place bears by its support, where the gradient goes with a size.
-StrengthBySize supported(const Judged& analysis, const TooLarge& stress,
+StrengthBySize supported(const Responded& analysis, const TooLarge& stress,
                          const std::function<double(double)>& gradient_of_size, double now_m) {
   if (!stress.gradient_per_m) return {};
   const auto& material = analysis.scene.fatigue->material;
@@ -168,7 +168,7 @@ std::optional<Plate> drum_wall(const meshes::Shaft& drum, const std::string& pla
 }
 
 /// None where ranks share the body: a rank has the stress of its own nodes only.
-std::optional<Plate> plate_at(const Judged& analysis, const std::string& place, bool is_toe) {
+std::optional<Plate> plate_at(const Responded& analysis, const std::string& place, bool is_toe) {
   const auto& scene = analysis.scene;
   if (analysis.responses.shared) return std::nullopt;
   if (const auto* chamber = std::get_if<ChamberShape>(&scene.shape))
@@ -180,7 +180,7 @@ std::optional<Plate> plate_at(const Judged& analysis, const std::string& place, 
 using UnitStress = std::vector<std::array<double, 6>>;
 
 /// Unit stress on the other face of a plate; empty: no face of the mesh is there.
-UnitStress opposite_unit_Pa(const Judged& analysis, const TooLarge& stress, double thickness_m) {
+UnitStress opposite_unit_Pa(const Responded& analysis, const TooLarge& stress, double thickness_m) {
   constexpr double off_surface = 0.05;  // of the thickness: the normal is one of chords
   const auto& nodes = analysis.responses.nodes;
   if (nodes.faces.empty()) return {};
@@ -224,7 +224,7 @@ std::string thickness_remedy(const Plate& plate, const Faces& faces, const TooLa
                      plate.name, down, up, 1e3 * plate.thickness_m);
 }
 
-std::string thickness_remedy(const Judged& analysis, const TooLarge& stress) {
+std::string thickness_remedy(const Responded& analysis, const TooLarge& stress) {
   const auto plate = plate_at(analysis, stress.place, false);
   if (!plate) return "";
   const auto factors = taken_from(analysis.loads.history.values, stress);

@@ -7,7 +7,7 @@
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/names/name_lists.h"
 #include "pipelines/loads/stage/mass_comparison.h"
-#include "pipelines/scene/bodies/scene_body.h"
+#include "pipelines/scene/kinds/body_names.h"
 #include "pipelines/scene/values/effect_names.h"
 
 namespace pipelines {
@@ -19,11 +19,8 @@ using Eigen::Index;
 
 namespace {
 
-// The chamber's ports.
-constexpr const char *bore = "housing_bore", *wall = "inner_wall";
-std::string foot(std::size_t i) {
-  return "spring_foot_" + std::to_string(i);
-}
+constexpr auto bore = ChamberNames::bore, wall = ChamberNames::wall;
+constexpr auto foot = ChamberNames::foot;
 
 /// -s'' of the translation on the circle: s = ecc e(phi), e(phi) = (cos phi, -sin phi), phi clockwise.
 Array2Xd inertial_translation(const kinetics::LoadHistory& loads, double eccentricity_m) {
@@ -41,16 +38,17 @@ public:
   ChamberParts(LoadCollector& collector, const LoadedBody& body, const ChamberLoading& loading)
       : collector_(collector), body_(body), loading_(loading) {}
 
-  void structure(const std::string& effect, const AccelerationField& field) {
+  void structure(std::size_t effect, const AccelerationField& field) {
     collector_.accelerate(body_.region("structure"), effect, field);
     for (const auto& mass : loading_.structure) collector_.accelerate(mass, effect, field);
   }
-  void exciter(const std::string& effect, const AccelerationField& field) {
+  void exciter(std::size_t effect, const AccelerationField& field) {
     for (const auto& region : body_.regions)
       if (region.name == "exciter") collector_.accelerate(region, effect, field);
     for (const auto& mass : loading_.exciter) collector_.accelerate(mass, effect, field);
   }
-  void all(const std::string& effect, const AccelerationField& field) {
+  void all(const std::string& name, const AccelerationField& field) {
+    const auto effect = collector_.effect(name);
     structure(effect, field);
     exciter(effect, field);
   }
@@ -100,16 +98,9 @@ void guide_by_feet(LoadCollector& collector, const LoadedBody& body, const Array
       if (port.name == foot(i + 1)) x[i] = port.axis_x_m;
   Array2Xd force = Array2Xd::Zero(2, couple_Nm.size());
   force.row(1) = (couple_Nm / (x[1] - x[0])).transpose();
-  collector.force(foot(2), pitch_guide, force);
-  collector.force(foot(1), pitch_guide, -force);
-}
-
-/// Opposite forces on the first two feet make a couple only at a distance.
-void check_guide_by_feet(SceneTable& table, const kinetics::VibratoryMill& mill) {
-  const auto& springs = mill.springs;
-  if (springs.size() < 2 || springs[0].position_m.x() == springs[1].position_m.x())
-    table.refuse("pitch_guide",
-                 "needs two springs, one beside the other, to pull and push by; write \"body\"");
+  const auto guide = collector.effect(pitch_guide);
+  collector.force(foot(2), guide, force);
+  collector.force(foot(1), guide, -force);
 }
 
 /// A file's ports lie where the machine has its loads, or these do not balance.
@@ -132,45 +123,8 @@ void require_places(const BodyScene& body, const kinetics::VibratoryMill& mill, 
     require(foot(i), fmt::format("machine.springs[{}].position", i), mill.springs[i - 1].position_m);
 }
 
-class ChamberKind : public BodyKind {
+class ChamberLoads : public LoadMaker {
 public:
-  std::string machine_type() const override { return "vibratory_mill"; }
-  std::vector<std::string> tables() const override { return {"chamber"}; }
-
-  BodyOptions read_options(SceneTable& table, const Scene& scene) const override {
-    ChamberOptions options;
-    const std::string guide =
-        table.text_or("pitch_guide", "body", "where the couple of a held attitude goes");
-    if (guide == "feet") {
-      options.pitch_guide = PitchGuide::feet;
-      check_guide_by_feet(table, scene.vibratory_mill());
-    } else if (!guide.empty() && guide != "body") {
-      table.refuse("pitch_guide", "write \"body\" (a body load about the mass centre) or \"feet\"");
-    }
-    options.elastic_feet =
-        table.flag_or("elastic_feet", false, "the springs' stiffness is no part of the body");
-    return options;
-  }
-  ContourRules contour_rules(const Scene& scene, const BodyScene&) const override {
-    ContourRules rules;
-    rules.ports = {bore, wall};
-    for (std::size_t i = 1; i <= scene.vibratory_mill().springs.size(); ++i) rules.ports.push_back(foot(i));
-    return rules;
-  }
-  BodyShape read_shape(SceneTable& table, const Scene& scene, const BodyScene&,
-                       SceneFindings&) const override {
-    return read_chamber_shape(table, scene.vibratory_mill(), scene.milling_space);
-  }
-  std::vector<std::string> bearing_loads(const BodyScene&) const override { return {bore}; }
-
-  bool shares_masses() const override { return true; }
-  std::optional<std::string> usual_difference_port(const BodyScene&) const override { return "covers"; }
-  void read_region(SceneTable& entry, AddedMass& added) const override {
-    added.region = entry.text_or("moves_with", added.port == bore ? "exciter" : "structure",
-                                 "by its port; whose mass it counts to");
-    if (added.region != "structure" && added.region != "exciter" && !added.region.empty())
-      entry.refuse("moves_with", "write \"structure\" or \"exciter\"");
-  }
   void agree_masses(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                     MassAgreement& result) const override {
     auto& mill = std::get<kinetics::VibratoryMill>(result.machine);
@@ -229,19 +183,13 @@ public:
                                std::get<ChamberOptions>(body.options).pitch_guide});
   }
   /// A couple that no machine part carries is worth a word once it matters.
-  void report(const Scene&, const BodyScene& body, const BodyLoads& loads,
-              kinetics::LoadHistory& history) const override {
-    if (loads.carried_moment_Nm.size() == 0) return;
-    const double most = loads.carried_moment_Nm.abs().maxCoeff();
-    if (most > 0.01 * loads.carried_moment_scale_Nm)
-      history.warnings.push_back(fmt::format(
-          "pitch is off: {} stresses contain a guide couple of {:.4g} N m, {:.2g} % of the moments on it",
-          body.name, most, 100 * most / loads.carried_moment_scale_Nm));
+  std::string warning(const Scene&, const BodyScene& body, const BodyLoads& loads) const override {
+    const double most = loads.carried_moment_Nm.size() > 0 ? loads.carried_moment_Nm.abs().maxCoeff() : 0;
+    if (most <= 0.01 * loads.carried_moment_scale_Nm) return "";
+    return fmt::format(
+        "pitch is off: {} stresses contain a guide couple of {:.4g} N m, {:.2g} % of the moments on it",
+        body.name, most, 100 * most / loads.carried_moment_scale_Nm);
   }
-  bool has_elastic_feet(const BodyScene& body) const override {
-    return std::get<ChamberOptions>(body.options).elastic_feet;
-  }
-  std::vector<std::string> supporting_ports(const BodyScene&) const override { return {}; }
 };
 
 }  // namespace
@@ -271,14 +219,13 @@ BodyLoads distribute_chamber(const kinetics::LoadHistory& loads, const kinetics:
   AccelerationField weight{Array3Xd::Zero(3, n), {}, {}}, inertia = weight;
   weight.translation_m_s2.row(1) = -mill.gravity_m_s2;
   inertia.translation_m_s2.topRows<2>() = inertial_translation(loads, mill.eccentricity_m);
-  if (contains(loading.effects, effect_name::gravity_structure))
-    parts.structure(effect_name::gravity_structure, weight);
-  if (contains(loading.effects, effect_name::gravity_exciter))
-    parts.exciter(effect_name::gravity_exciter, weight);
-  if (contains(loading.effects, effect_name::structure_inertia))
-    parts.structure(effect_name::structure_inertia, inertia);
-  if (contains(loading.effects, effect_name::exciter_inertia))
-    parts.exciter(effect_name::exciter_inertia, inertia);
+  const auto accelerate = [&](const char* name, auto part, const AccelerationField& field) {
+    if (contains(loading.effects, name)) (parts.*part)(collector.effect(name), field);
+  };
+  accelerate(effect_name::gravity_structure, &ChamberParts::structure, weight);
+  accelerate(effect_name::gravity_exciter, &ChamberParts::exciter, weight);
+  accelerate(effect_name::structure_inertia, &ChamberParts::structure, inertia);
+  accelerate(effect_name::exciter_inertia, &ChamberParts::exciter, inertia);
   if (contains(loading.effects, effect_name::pitch))
     parts.all(effect_name::pitch, {{}, -loads.quantity("theta_ddot").values, {}});
 
@@ -300,9 +247,9 @@ BodyLoads distribute_chamber(const kinetics::LoadHistory& loads, const kinetics:
   return result;
 }
 
-const BodyKind& chamber_kind() {
-  static const ChamberKind kind;
-  return kind;
+const LoadMaker& chamber_loads() {
+  static const ChamberLoads loads;
+  return loads;
 }
 
 }  // namespace pipelines

@@ -7,7 +7,7 @@
 #include "kinetics/values/load_history.h"
 #include "kinetics/vibratory_mill.h"
 #include "pipelines/loads/channels/load_collector.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/loads/stage/load_maker.h"
 
 namespace pipelines {
 
@@ -34,6 +34,6 @@ struct ChamberLoading {
 BodyLoads distribute_chamber(const kinetics::LoadHistory& loads, const kinetics::VibratoryMill& mill,
                              const LoadedBody& body, const ChamberLoading& loading);
 
-const BodyKind& chamber_kind();
+const LoadMaker& chamber_loads();
 
 }  // namespace pipelines

@@ -6,7 +6,7 @@
 #include "pipelines/base/names/name_lists.h"
 #include "pipelines/loads/bodies/planetary_fields.h"
 #include "pipelines/loads/stage/mass_comparison.h"
-#include "pipelines/scene/bodies/scene_body.h"
+#include "pipelines/scene/kinds/body_names.h"
 #include "pipelines/scene/values/effect_names.h"
 
 namespace pipelines {
@@ -18,34 +18,8 @@ using Eigen::Index;
 
 namespace {
 
-class DrumKind : public BodyKind {
+class DrumLoads : public LoadMaker {
 public:
-  static constexpr const char* spin = "drum_spin";  // its own effect
-  // The drum's ports.
-  static constexpr const char *wall = "inner_wall", *trunnion_1 = "trunnion_1", *trunnion_2 = "trunnion_2",
-                              *pulley = "pulley_seat";
-
-  std::string machine_type() const override { return "planetary_mill"; }
-  std::vector<std::string> tables() const override { return {"drum"}; }
-
-  BodyOptions read_options(SceneTable&, const Scene&) const override { return DrumOptions{}; }
-  ContourRules contour_rules(const Scene&, const BodyScene&) const override {
-    ContourRules rules;
-    rules.ports = {wall, trunnion_1, trunnion_2, pulley};
-    rules.middle = wall;
-    return rules;
-  }
-  std::vector<std::string> bearing_loads(const BodyScene&) const override { return {trunnion_1, trunnion_2}; }
-  std::optional<double> seat_speed_rad_s(const Scene& scene, const BodyScene&) const override {
-    const auto& mill = std::get<kinetics::PlanetaryMill>(scene.machine);
-    return mill.speed_rad_s * kinetics::planetary_geometry(mill).relative_speed_ratio;
-  }
-  std::vector<kinetics::EffectInfo> own_effects() const override {
-    return {{spin, "Centrifugal field of the drum's own spin, without a resultant; from its mesh.",
-             "coupling 4"}};
-  }
-  bool shares_masses() const override { return true; }
-  std::optional<std::string> usual_difference_port(const BodyScene&) const override { return pulley; }
   void agree_masses(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
                     MassAgreement& result) const override {
     auto& mill = std::get<kinetics::PlanetaryMill>(result.machine);
@@ -70,9 +44,6 @@ public:
     return distribute_drum(history, std::get<kinetics::PlanetaryMill>(masses.machine), loaded,
                            {scene.effects, masses.attached.at(body.name).structure});
   }
-  std::vector<std::string> supporting_ports(const BodyScene&) const override {
-    return {trunnion_1, trunnion_2};
-  }
   double spin_Hz(const Scene&, const BodyScene&, const kinetics::LoadHistory& loads) const override {
     return std::abs(loads.quantity("drum_relative_speed").values.mean()) / (2 * pi);
   }
@@ -92,11 +63,12 @@ BodyLoads distribute_drum(const kinetics::LoadHistory& loads, const kinetics::Pl
       collector.torque(port, part.effect, part.load.row(2).transpose());
     }
   };
-  enter("inner_wall", DrumKind::wall);
-  enter("pulley", DrumKind::pulley);
+  enter("inner_wall", DrumNames::wall);
+  enter("pulley", DrumNames::pulley);
 
-  const auto accelerate = [&](const std::string& effect, const AccelerationField& field) {
-    if (!contains(loading.effects, effect)) return;
+  const auto accelerate = [&](const std::string& name, const AccelerationField& field) {
+    if (!contains(loading.effects, name)) return;
+    const auto effect = collector.effect(name);
     collector.accelerate(body.region(), effect, field);
     for (const auto& mass : loading.attached) collector.accelerate(mass, effect, field);
   };
@@ -104,20 +76,20 @@ BodyLoads distribute_drum(const kinetics::LoadHistory& loads, const kinetics::Pl
              planetary::translation(turned(planetary::transport(loads, mill), psi)));
   accelerate(effect_name::drum_gravity,
              planetary::translation(turned(planetary::gravity(loads, mill.gravity_m_s2), psi)));
-  accelerate(DrumKind::spin, {{}, {}, loads.quantity("drum_speed").values.square()});
+  accelerate(DrumNames::spin, {{}, {}, loads.quantity("drum_speed").values.square()});
 
-  std::map<std::string, Array2Xd> reaction;
+  std::map<std::size_t, Array2Xd> reaction;
   for (const auto& part : loads.resultant("trunnions").contributions)
     reaction[part.effect] = turned(part.load.topRows<2>(), psi);
-  collector.react(DrumKind::trunnion_1, DrumKind::trunnion_2, reaction);
-  for (const char* port : {DrumKind::wall, DrumKind::pulley, DrumKind::trunnion_1, DrumKind::trunnion_2})
+  collector.react(DrumNames::trunnion_1, DrumNames::trunnion_2, reaction);
+  for (const char* port : {DrumNames::wall, DrumNames::pulley, DrumNames::trunnion_1, DrumNames::trunnion_2})
     collector.pressure(port);
   return collector.finish();
 }
 
-const BodyKind& drum_kind() {
-  static const DrumKind kind;
-  return kind;
+const LoadMaker& drum_loads() {
+  static const DrumLoads loads;
+  return loads;
 }
 
 }  // namespace pipelines

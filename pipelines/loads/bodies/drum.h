@@ -7,7 +7,7 @@
 #include "kinetics/planetary_mill.h"
 #include "kinetics/values/load_history.h"
 #include "pipelines/loads/channels/load_collector.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/loads/stage/load_maker.h"
 
 namespace pipelines {
 
@@ -27,6 +27,6 @@ struct DrumLoading {
 BodyLoads distribute_drum(const kinetics::LoadHistory& loads, const kinetics::PlanetaryMill& mill,
                           const LoadedBody& body, const DrumLoading& loading);
 
-const BodyKind& drum_kind();
+const LoadMaker& drum_loads();
 
 }  // namespace pipelines

@@ -7,7 +7,7 @@
 #include "kinetics/planetary_mill.h"
 #include "kinetics/values/load_history.h"
 #include "pipelines/loads/channels/load_collector.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/loads/stage/load_maker.h"
 
 namespace pipelines {
 
@@ -22,6 +22,6 @@ BodyLoads distribute_stub_axle(const kinetics::LoadHistory& loads, const kinetic
                                const LoadedBody& body, const StubAxleOptions& options,
                                const std::vector<std::string>& effects);
 
-const BodyKind& stub_axle_kind();
+const LoadMaker& stub_axle_loads();
 
 }  // namespace pipelines

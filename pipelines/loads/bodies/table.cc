@@ -1,23 +1,19 @@
-/// The kinds of bodies that there are: a new one is entered here and in BodyOptions, at the same place.
+/// The loads of the kinds of bodies that there are: a new one is entered here, in scene/kinds/table.cc and in
+/// BodyOptions, at the same place.
 #include "pipelines/loads/bodies/chamber.h"
 #include "pipelines/loads/bodies/drum.h"
 #include "pipelines/loads/bodies/stub_axle.h"
 #include "pipelines/loads/bodies/table_body.h"
 #include "pipelines/loads/bodies/train_shaft.h"
 #include "pipelines/loads/bodies/vibratory_shaft.h"
-#include "pipelines/scene/whole/body_kind.h"
 
 namespace pipelines {
 
-const std::vector<const BodyKind*>& body_kinds() {
-  static const std::vector<const BodyKind*> kinds{
-      &vibratory_shaft_kind(), &chamber_kind(),     &drum_kind(),
-      &stub_axle_kind(),       &train_shaft_kind(), &table_body_kind()};
-  return kinds;
-}
-
-const BodyKind& kind_of(const BodyScene& body) {
-  return *body_kinds().at(body.options.index());
+const LoadMaker& load_maker_of(const BodyScene& body) {
+  static const std::vector<const LoadMaker*> makers{
+      &vibratory_shaft_loads(), &chamber_loads(),     &drum_loads(),
+      &stub_axle_loads(),       &train_shaft_loads(), &table_body_loads()};
+  return *makers.at(body.options.index());
 }
 
 }  // namespace pipelines

@@ -8,8 +8,6 @@
 #include "pipelines/base/common/errors.h"
 #include "pipelines/loads/channels/closure.h"
 #include "pipelines/loads/stage/machine_masses.h"
-#include "pipelines/scene/bodies/scene_body.h"
-#include "pipelines/scene/bodies/scene_body_parts.h"
 
 namespace pipelines {
 
@@ -24,7 +22,7 @@ const char* const only_accelerations =
     "a force or moment on \"volume\": the body as a whole takes ax, ay, az and spin; name a port";
 
 /// One load beside the planar resultants, "<port>.<component>".
-void enter_table_load(LoadCollector& collector, const LoadedBody& body, const std::string& effect,
+void enter_table_load(LoadCollector& collector, const LoadedBody& body, std::size_t effect,
                       const kinetics::Quantity& load) {
   const auto dot = load.name.rfind('.');
   const std::string port = load.name.substr(0, dot), component = load.name.substr(dot + 1);
@@ -48,30 +46,6 @@ void enter_table_load(LoadCollector& collector, const LoadedBody& body, const st
   Array2Xd moment = Array2Xd::Zero(2, values.size());
   moment.row(component == "mx" ? 0 : 1) = values.transpose();
   collector.tilt(port, effect, moment);
-}
-
-/// Ports that the loads of a table enter by; end faces are always there.
-void add_table_ports(const Scene& scene, std::vector<std::string>& ports) {
-  for (const auto& load : std::get<kinetics::LoadTable>(scene.machine).loads) {
-    const bool is_face = load.port == "end_1" || load.port == "end_2" || load.port == "volume";
-    if (!is_face && scene.has_effect(load.effect) &&
-        std::find(ports.begin(), ports.end(), load.port) == ports.end())
-      ports.push_back(load.port);
-  }
-}
-
-/// Forces need a surface, accelerations the whole body.
-void check_table_loads(SceneTable& body, const Scene& scene) {
-  for (const auto& load : std::get<kinetics::LoadTable>(scene.machine).loads) {
-    const auto& c = load.component;
-    const bool is_field = c == "ax" || c == "ay" || c == "az" || c == "spin";
-    if (!scene.has_effect(load.effect) || is_field == (load.port == "volume")) continue;
-    const std::string name = "the load \"" + load.port + "." + c + "\" ";
-    body.refuse_missing("", is_field ? name + "belongs to the whole body; write \"volume." + c + "\""
-                                     : name +
-                                           "has no place to enter: the body as a whole takes ax, ay, az "
-                                           "and spin; name a port");
-  }
 }
 
 std::string first_port(const BodyLoads& loads) {
@@ -100,56 +74,8 @@ const TableBodyOptions& table_options(const BodyScene& body) {
   return std::get<TableBodyOptions>(body.options);
 }
 
-class TableBodyKind : public BodyKind {
+class TableBodyLoads : public LoadMaker {
 public:
-  std::string machine_type() const override { return "load_table"; }
-  std::vector<std::string> tables() const override { return {"shaft", "part"}; }
-
-  BodyOptions read_options(SceneTable& table, const Scene& scene) const override {
-    TableBodyOptions options;
-    table.know("bearings");
-    table.know("clamp");
-    if (table.has("clamp")) {
-      options.clamp = table.text("clamp");
-      for (const char* other : {"bearings", "axial_support", "torque_support"})
-        if (table.has(other))
-          table.refuse(other, "stands beside clamp, which takes all forces and moments; remove one of both");
-    } else if (table.has("bearings")) {
-      auto& bearings = options.bearings;
-      for (const auto& name : table.texts("bearings")) bearings.push_back(name.text);
-      if (bearings.size() != 2 || bearings[0] == bearings[1])
-        table.refuse("bearings",
-                     "needs the ports of two bearings; one port that holds the body is its clamp");
-    }
-    for (auto* support : {&options.axial_support, &options.torque_support}) {
-      const char* key = support == &options.axial_support ? "axial_support" : "torque_support";
-      table.know(key);
-      if (table.has(key)) *support = table.text(key);
-    }
-    check_table_loads(table, scene);
-    return options;
-  }
-  ContourRules contour_rules(const Scene& scene, const BodyScene& body) const override {
-    ContourRules rules;
-    rules.any_port = true;
-    rules.ports = table_options(body).bearings;
-    add_table_ports(scene, rules.ports);
-    return rules;
-  }
-  void check_ports(SceneTable& table, const BodyScene& body) const override {
-    const auto known = ports_of(body).all;
-    const auto& options = table_options(body);
-    check_port(table, "clamp", options.clamp, known, "the ports of this body");
-    check_port(table, "axial_support", options.axial_support, known, "the ports of this body");
-    check_port(table, "torque_support", options.torque_support, known, "the ports of this body");
-  }
-  std::vector<std::string> bearing_loads(const BodyScene& body) const override {
-    return table_options(body).bearings;
-  }
-  std::optional<double> seat_speed_rad_s(const Scene& scene, const BodyScene& body) const override {
-    if (body.name != "shaft") return std::nullopt;
-    return std::get<kinetics::LoadTable>(scene.machine).speed_rad_s;
-  }
   BodyLoads distribute(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
                        const LoadedBody& loaded, const MassAgreement&) const override {
     try {
@@ -161,8 +87,8 @@ public:
   }
   void require_supports(const BodyScene& body, const BodyLoads& loads,
                         const std::vector<RegionMass>& regions) const override {
-    if (loads.unit_loads.empty() || is_clamped(body)) return;
     const auto& table = table_options(body);
+    if (loads.unit_loads.empty() || !table.clamp.empty()) return;
     std::vector<std::array<double, 6>> wanted;
     for (const auto& load : loads.unit_loads) wanted.push_back(wanted_resultant(load, regions));
     const auto left = remainder(check_closure(loads, wanted, regions));
@@ -191,18 +117,13 @@ public:
   }
   std::string missing_support(const BodyScene& body, const Closure& closure) const override {
     const auto& table = table_options(body);
-    if (is_clamped(body)) return "";
+    if (!table.clamp.empty()) return "";
     if (closure.moment[2] > Closure::limit && table.torque_support.empty())
       return "name the port that takes torque, torque_support in [" + body.name + "]";
     if (closure.force[2] > Closure::limit && table.axial_support.empty())
       return "name the port that takes axial forces, axial_support in [" + body.name + "]";
     return table.bearings.empty() ? "name the ports of two bearings, bearings in [" + body.name + "]" : "";
   }
-  std::vector<std::string> supporting_ports(const BodyScene& body) const override {
-    const auto& table = table_options(body);
-    return table.clamp.empty() ? table.bearings : std::vector<std::string>{table.clamp};
-  }
-  bool is_clamped(const BodyScene& body) const override { return !table_options(body).clamp.empty(); }
   /// Loads on a shaft may be along axes that turn with it; a part's are along its own.
   std::vector<double> spins_Hz(const Scene&, const BodyScene& body,
                                const kinetics::LoadHistory& loads) const override {
@@ -221,11 +142,11 @@ BodyLoads distribute_table_at(const Eigen::ArrayXd& phi_rad, const kinetics::Loa
   for (const auto& resultant : all.resultants)
     scale_N = std::max(scale_N, resultant.total.topRows<2>().abs().maxCoeff());
   LoadCollector collector(body, all.effects, all.n_instants(), scale_N);
-  for (const auto& effect : all.effects) {
-    const auto own = kinetics::loads_at(table, {effect}, grid, phi_rad);
+  for (std::size_t effect = 0; effect < all.effects.size(); ++effect) {
+    const auto own = kinetics::loads_at(table, {all.effects[effect]}, grid, phi_rad);
     for (const auto& resultant : own.resultants) {
       if (resultant.role == "volume")
-        throw StageRefused("the effect \"" + effect + "\": " + only_accelerations);
+        throw StageRefused("the effect \"" + all.effects[effect] + "\": " + only_accelerations);
       if (resultant.total.topRows<2>().abs().maxCoeff() > 0)
         collector.force(resultant.role, effect, resultant.total.topRows<2>());
       if (resultant.total.row(2).abs().maxCoeff() > 0)
@@ -256,9 +177,9 @@ BodyLoads distribute_table_at(const Eigen::ArrayXd& phi_rad, const kinetics::Loa
   return collector.finish();
 }
 
-const BodyKind& table_body_kind() {
-  static const TableBodyKind kind;
-  return kind;
+const LoadMaker& table_body_loads() {
+  static const TableBodyLoads loads;
+  return loads;
 }
 
 }  // namespace pipelines

@@ -7,7 +7,7 @@
 #include "kinetics/table/load_table.h"
 #include "kinetics/values/load_history.h"
 #include "pipelines/loads/channels/load_collector.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/loads/stage/load_maker.h"
 
 namespace pipelines {
 
@@ -19,6 +19,6 @@ BodyLoads distribute_table_at(const Eigen::ArrayXd& phi_rad, const kinetics::Loa
                               const std::vector<std::string>& effects, const kinetics::TimeGrid& grid,
                               const LoadedBody& body, const TableBodyOptions& options);
 
-const BodyKind& table_body_kind();
+const LoadMaker& table_body_loads();
 
 }  // namespace pipelines

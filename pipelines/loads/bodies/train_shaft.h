@@ -6,7 +6,7 @@
 
 #include "kinetics/values/load_history.h"
 #include "pipelines/loads/channels/load_collector.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/loads/stage/load_maker.h"
 
 namespace pipelines {
 
@@ -21,6 +21,6 @@ BodyLoads distribute_train_shaft(const kinetics::LoadHistory& loads, double mean
                                  const std::vector<std::string>& effects,
                                  const std::vector<AttachedMass>& attached);
 
-const BodyKind& train_shaft_kind();
+const LoadMaker& train_shaft_loads();
 
 }  // namespace pipelines

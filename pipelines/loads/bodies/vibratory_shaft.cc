@@ -5,7 +5,7 @@
 #include "pipelines/base/common/constants.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/loads/stage/machine_masses.h"
-#include "pipelines/scene/bodies/scene_body.h"
+#include "pipelines/scene/kinds/body_names.h"
 #include "pipelines/scene/values/effect_names.h"
 #include "pipelines/scene/whole/scene.h"
 
@@ -18,74 +18,26 @@ using Eigen::Index;
 
 namespace {
 
-class VibratoryShaftKind : public BodyKind {
+class VibratoryShaftLoads : public LoadMaker {
 public:
-  // The shaft's own effects.
-  static constexpr const char *weight = "gravity_shaft", *inertia = effect_name::shaft_inertia;
-  // The shaft's ports.
-  static constexpr const char *seat = "eccentric_seat", *bearing_1 = "main_bearing_1",
-                              *bearing_2 = "main_bearing_2", *debalance_1 = "debalance_1",
-                              *debalance_2 = "debalance_2", *coupling = "coupling";
-
-  static constexpr const char* bearing_reaction = "R_E_shaft";  // a quantity
-
-  std::string machine_type() const override { return "vibratory_mill"; }
-  std::vector<std::string> tables() const override { return {"shaft"}; }
-
-  BodyOptions read_options(SceneTable& table, const Scene&) const override {
-    VibratoryShaftOptions options;
-    auto& shares = options.debalance_shares;
-    table.know("debalance_shares");
-    if (!table.has("debalance_shares")) {
-      table.record_default("debalance_shares", "[0.5, 0.5]", "both debalances alike");
-      return options;
-    }
-    shares = table.quantities("debalance_shares", "1", between(0, 1), 2);
-    if (std::abs(shares[0] + shares[1] - 1) > 1e-9)
-      table.refuse("debalance_shares", "must add up to 1: they are the shares of one mass");
-    return options;
-  }
-  ContourRules contour_rules(const Scene& scene, const BodyScene&) const override {
-    ContourRules rules;
-    rules.ports = {seat, bearing_1, bearing_2, debalance_1, debalance_2, coupling};
-    rules.middle = rules.eccentric_seat = seat;
-    rules.eccentricity_m = scene.vibratory_mill().eccentricity_m;
-    return rules;
-  }
-  std::vector<std::string> bearing_loads(const BodyScene&) const override {
-    return {bearing_1, bearing_2, seat, bearing_reaction};
-  }
-  std::optional<double> seat_speed_rad_s(const Scene& scene, const BodyScene&) const override {
-    return scene.vibratory_mill().speed_rad_s;
-  }
-  std::vector<kinetics::EffectInfo> own_effects() const override {
-    return {
-        {weight, "Weight of the shaft itself, from its mesh.", "coupling 2"},
-        {inertia, "Centrifugal field and angular inertia of the shaft itself, from its mesh.", "coupling 2"}};
-  }
   BodyLoads distribute(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
                        const LoadedBody& loaded, const MassAgreement&) const override {
     const auto& shares = std::get<VibratoryShaftOptions>(body.options).debalance_shares;
     VibratoryShaftLoading loading;
     loading.gravity_m_s2 = scene.vibratory_mill().gravity_m_s2;
-    loading.own_weight = scene.has_effect(weight);
-    loading.own_inertia = scene.has_effect(inertia);
+    loading.own_weight = scene.has_effect(VibratoryShaftNames::weight);
+    loading.own_inertia = scene.has_effect(VibratoryShaftNames::inertia);
     loading.debalance_shares = {shares.at(0), shares.at(1)};
     return distribute_vibratory_shaft(history, loaded, loading);
   }
   /// What the bearings and the coupling carry with the shaft's own mass, beside the load stage's massless
   /// figures.
-  void report(const Scene&, const BodyScene&, const BodyLoads& loads,
-              kinetics::LoadHistory& history) const override {
-    history.quantities.push_back({bearing_reaction, "N",
-                                  "bearing reaction with the shaft's own mass, magnitude",
-                                  loads.frame_bearing_force_N.matrix().colwise().norm().transpose()});
-    history.quantities.push_back({"T_shaft", "N m",
-                                  "drive torque with the shaft's own mass, clockwise positive",
-                                  loads.drive_torque_Nm});
-  }
-  std::vector<std::string> supporting_ports(const BodyScene&) const override {
-    return {bearing_1, bearing_2};
+  std::vector<kinetics::Quantity> quantities(const BodyLoads& loads) const override {
+    return {
+        {VibratoryShaftNames::bearing_reaction, "N", "bearing reaction with the shaft's own mass, magnitude",
+         loads.frame_bearing_force_N.matrix().colwise().norm().transpose()},
+        {"T_shaft", "N m", "drive torque with the shaft's own mass, clockwise positive",
+         loads.drive_torque_Nm}};
   }
   double spin_Hz(const Scene&, const BodyScene&, const kinetics::LoadHistory& loads) const override {
     return std::abs(loads.speed_rad_s.mean()) / (2 * pi);
@@ -101,20 +53,17 @@ BodyLoads distribute_vibratory_shaft(const kinetics::LoadHistory& loads, const L
                        "\" has no closed loads for a shaft: analyse bodies under \"consistent\"");
   const Index n = loads.n_instants();
   const ArrayXd alpha = -loads.phi_rad;  // phi is clockwise
-  auto effects = loads.effects;
-  if (loading.own_weight) effects.push_back(VibratoryShaftKind::weight);
-  if (loading.own_inertia) effects.push_back(VibratoryShaftKind::inertia);
   const auto& frame = loads.resultant("frame_bearings");
-  LoadCollector collector(body, effects, n, frame.total.topRows<2>().abs().maxCoeff());
+  LoadCollector collector(body, loads.effects, n, frame.total.topRows<2>().abs().maxCoeff());
 
   // -B through the seat's own axis, no torque.
   for (const auto& part : loads.resultant("eccentric").contributions)
-    collector.force(VibratoryShaftKind::seat, part.effect, turned(part.load.topRows<2>(), alpha));
+    collector.force(VibratoryShaftNames::seat, part.effect, turned(part.load.topRows<2>(), alpha));
 
   // Debalances: their share of force, and of its moment about E, which the seat (concentric) takes as a
   // torque.
-  const std::array<std::string, 2> debalances{VibratoryShaftKind::debalance_1,
-                                              VibratoryShaftKind::debalance_2};
+  const std::array<std::string, 2> debalances{VibratoryShaftNames::debalance_1,
+                                              VibratoryShaftNames::debalance_2};
   if (loads.has_resultant("debalance"))
     for (const auto& part : loads.resultant("debalance").contributions)
       for (std::size_t i = 0; i < 2; ++i) {
@@ -125,37 +74,41 @@ BodyLoads distribute_vibratory_shaft(const kinetics::LoadHistory& loads, const L
 
   // The body's own weight and inertia: d'Alembert accelerations; resultants and moments from the mesh.
   const auto& volume = body.region();
+  std::vector<std::size_t> own_effects;
   if (loading.own_weight) {
     Array2Xd fixed = Array2Xd::Zero(2, n);
     fixed.row(1) = -loading.gravity_m_s2;
     AccelerationField weight{Array3Xd::Zero(3, n), {}, {}};
     weight.translation_m_s2.topRows<2>() = turned(fixed, alpha);
-    collector.accelerate(volume, VibratoryShaftKind::weight, weight);
+    own_effects.push_back(collector.effect(VibratoryShaftNames::weight));
+    collector.accelerate(volume, own_effects.back(), weight);
   }
-  if (loading.own_inertia)
-    collector.accelerate(volume, VibratoryShaftKind::inertia,
+  if (loading.own_inertia) {
+    own_effects.push_back(collector.effect(VibratoryShaftNames::inertia));
+    collector.accelerate(volume, own_effects.back(),
                          {{}, loads.acceleration_rad_s2, loads.speed_rad_s.square()});
+  }
 
   // Bearings: the resultant reaction is the load stage's R_E less the body's own loads; where it acts follows
   // from the moments about bearing 1. The closure of forces then remains a check of the load stage, not an
   // assumption. The coupling takes the drive torque and the moment of the body's own loads about E.
-  std::map<std::string, Array2Xd> reaction;
+  std::map<std::size_t, Array2Xd> reaction;
   for (const auto& part : frame.contributions) reaction[part.effect] = turned(part.load.topRows<2>(), alpha);
   Array2Xd own_force = Array2Xd::Zero(2, n);
   ArrayXd own_torque = ArrayXd::Zero(n);  // counter-clockwise about E
-  for (const char* own : {VibratoryShaftKind::weight, VibratoryShaftKind::inertia}) {
+  for (const std::size_t own : own_effects) {
     const Wrench sum = collector.sum(own);
     if (!(sum.abs().maxCoeff() > 0)) continue;
     reaction[own] = -sum.topRows<2>();
     own_force += sum.topRows<2>();
     own_torque += sum.row(5).transpose();
-    collector.torque(VibratoryShaftKind::coupling, own, -sum.row(5).transpose());
+    collector.torque(VibratoryShaftNames::coupling, own, -sum.row(5).transpose());
   }
   for (const auto& part : loads.resultant("drive").contributions)
-    collector.torque(VibratoryShaftKind::coupling, part.effect, part.load.row(2).transpose());
-  collector.react(VibratoryShaftKind::bearing_1, VibratoryShaftKind::bearing_2, reaction);
+    collector.torque(VibratoryShaftNames::coupling, part.effect, part.load.row(2).transpose());
+  collector.react(VibratoryShaftNames::bearing_1, VibratoryShaftNames::bearing_2, reaction);
   for (const char* seat :
-       {VibratoryShaftKind::seat, VibratoryShaftKind::bearing_1, VibratoryShaftKind::bearing_2})
+       {VibratoryShaftNames::seat, VibratoryShaftNames::bearing_1, VibratoryShaftNames::bearing_2})
     collector.pressure(seat);
 
   auto result = collector.finish();
@@ -164,9 +117,9 @@ BodyLoads distribute_vibratory_shaft(const kinetics::LoadHistory& loads, const L
   return result;
 }
 
-const BodyKind& vibratory_shaft_kind() {
-  static const VibratoryShaftKind kind;
-  return kind;
+const LoadMaker& vibratory_shaft_loads() {
+  static const VibratoryShaftLoads loads;
+  return loads;
 }
 
 }  // namespace pipelines

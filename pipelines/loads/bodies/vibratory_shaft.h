@@ -5,7 +5,7 @@
 
 #include "kinetics/values/load_history.h"
 #include "pipelines/loads/channels/load_collector.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/loads/stage/load_maker.h"
 
 namespace pipelines {
 
@@ -28,6 +28,6 @@ struct VibratoryShaftLoading {
 BodyLoads distribute_vibratory_shaft(const kinetics::LoadHistory& loads, const LoadedBody& body,
                                      const VibratoryShaftLoading& loading);
 
-const BodyKind& vibratory_shaft_kind();
+const LoadMaker& vibratory_shaft_loads();
 
 }  // namespace pipelines

@@ -45,7 +45,9 @@ void require_finite(const kinetics::LoadHistory& loads) {
   for (const auto& resultant : loads.resultants) {
     check("the load \"" + resultant.role + "\" [N, N m]", resultant.total);
     for (const auto& part : resultant.contributions)
-      check("the part of \"" + part.effect + "\" in the load \"" + resultant.role + "\" [N, N m]", part.load);
+      check("the part of \"" + loads.effects[part.effect] + "\" in the load \"" + resultant.role +
+                "\" [N, N m]",
+            part.load);
   }
 }
 

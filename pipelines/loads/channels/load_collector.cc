@@ -39,13 +39,6 @@ PressureModel in_contact(PressureModel model, const meshes::Port& port, double p
 
 }  // namespace
 
-BodyLoads::BodyLoads() = default;
-BodyLoads::BodyLoads(const BodyLoads&) = default;
-BodyLoads::BodyLoads(BodyLoads&&) noexcept = default;
-BodyLoads& BodyLoads::operator=(const BodyLoads&) = default;
-BodyLoads& BodyLoads::operator=(BodyLoads&&) noexcept = default;
-BodyLoads::~BodyLoads() = default;
-
 Array2Xd turned(const Array2Xd& force, const ArrayXd& alpha_rad) {
   const auto c = alpha_rad.cos().transpose().eval(), s = alpha_rad.sin().transpose().eval();
   Array2Xd result(2, force.cols());
@@ -104,19 +97,19 @@ fem::LoadSurface LoadCollector::surface_of(const meshes::Port& port) const {
   return surface;
 }
 
-std::size_t LoadCollector::index_of(const std::string& effect) {
-  const auto found = std::find(effects_.begin(), effects_.end(), effect);
+std::size_t LoadCollector::effect(const std::string& name) {
+  const auto found = std::find(effects_.begin(), effects_.end(), name);
   if (found != effects_.end()) return std::size_t(found - effects_.begin());
-  effects_.push_back(effect);
+  effects_.push_back(name);
   return effects_.size() - 1;
 }
 
-void LoadCollector::add(const fem::UnitLoad& load, const std::string& unit, const std::string& effect,
+void LoadCollector::add(const fem::UnitLoad& load, const std::string& unit, std::size_t effect,
                         const ArrayXd& values, double scale) {
   if (values.size() == 0 || largest(values) <= negligible * scale) return;
   const auto [position, is_new] = index_.try_emplace(load.channel, channels_.size());
   if (is_new) channels_.push_back({load, unit, {}});
-  const auto [part, is_first] = channels_[position->second].parts.try_emplace(index_of(effect), values);
+  const auto [part, is_first] = channels_[position->second].parts.try_emplace(effect, values);
   if (is_first) return;
   const double summed = std::max(largest(part->second), largest(values));
   part->second += values;
@@ -124,7 +117,7 @@ void LoadCollector::add(const fem::UnitLoad& load, const std::string& unit, cons
   if (largest(part->second) <= negligible * summed) part->second.setZero();
 }
 
-void LoadCollector::count(const std::string& place, const std::string& effect, const Eigen::Vector3d& p,
+void LoadCollector::count(const std::string& place, std::size_t effect, const Eigen::Vector3d& p,
                           const Wrench& load) {
   Wrench about_origin = load;
   about_origin.row(3) += p[1] * load.row(2) - p[2] * load.row(1);
@@ -139,7 +132,7 @@ void LoadCollector::count(const std::string& place, const std::string& effect, c
 }
 
 void LoadCollector::enter(const meshes::Port& port, const char* component, Component which,
-                          const std::string& effect, const ArrayXd& values) {
+                          std::size_t effect, const ArrayXd& values) {
   const bool is_force = which <= Component::fz;
   add({port.name + "." + component, fem::SurfaceResultant{surface_of(port), which}}, is_force ? "N" : "N m",
       effect, values, is_force ? force_scale_N_ : force_scale_N_ * length_scale_m_);
@@ -155,7 +148,7 @@ double LoadCollector::pressed_beside_m(const meshes::Port& port) const {
   return middle_of(model->second.axial_profile) * (port.end_m - port.begin_m) / 2;
 }
 
-void LoadCollector::force(const std::string& port_name, const std::string& effect, const Array2Xd& force_N) {
+void LoadCollector::force(const std::string& port_name, std::size_t effect, const Array2Xd& force_N) {
   const auto& port = find(port_name);
   enter(port, "fx", Component::fx, effect, force_N.row(0).transpose());
   enter(port, "fy", Component::fy, effect, force_N.row(1).transpose());
@@ -169,15 +162,15 @@ void LoadCollector::force(const std::string& port_name, const std::string& effec
   if (!is_first) known->second += force_N;
 }
 
-void LoadCollector::axial_force(const std::string& port, const std::string& effect, const ArrayXd& force_N) {
+void LoadCollector::axial_force(const std::string& port, std::size_t effect, const ArrayXd& force_N) {
   enter(find(port), "fz", Component::fz, effect, force_N);
 }
 
-void LoadCollector::torque(const std::string& port, const std::string& effect, const ArrayXd& moment_Nm) {
+void LoadCollector::torque(const std::string& port, std::size_t effect, const ArrayXd& moment_Nm) {
   enter(find(port), "torque", Component::torque, effect, moment_Nm);
 }
 
-void LoadCollector::tilt(const std::string& port_name, const std::string& effect, const Array2Xd& moment_Nm) {
+void LoadCollector::tilt(const std::string& port_name, std::size_t effect, const Array2Xd& moment_Nm) {
   const auto& port = find(port_name);
   enter(port, "mx", Component::mx, effect, moment_Nm.row(0).transpose());
   enter(port, "my", Component::my, effect, moment_Nm.row(1).transpose());
@@ -190,6 +183,7 @@ void LoadCollector::pressure(const std::string& port_name) {
   const auto found = body_.pressures.find(port_name);
   Array2Xd total = Array2Xd::Zero(2, n_instants_);
   for (const auto& [effect, force] : forces->second) total += force;
+  pressing_force_N_[port_name] = total;
   // beta is where the pressure is centred: opposite the force on an outer seat, along it inside a bore.
   ArrayXd beta(n_instants_);
   Array2Xd direction = Array2Xd::Zero(2, n_instants_);
@@ -221,8 +215,7 @@ void LoadCollector::pressure(const std::string& port_name) {
   }
 }
 
-void LoadCollector::accelerate(const RegionMass& region, const std::string& effect,
-                               const AccelerationField& field) {
+void LoadCollector::accelerate(const RegionMass& region, std::size_t effect, const AccelerationField& field) {
   using Field = fem::BodyForce::Field;
   const std::string prefix = region.name.empty() ? "volume." : "volume." + region.name + ".";
   const double mass = region.masses.mass_kg;
@@ -254,8 +247,7 @@ void LoadCollector::accelerate(const RegionMass& region, const std::string& effe
   count(prefix, effect, Eigen::Vector3d::Zero(), load);
 }
 
-void LoadCollector::accelerate(const AttachedMass& mass, const std::string& effect,
-                               const AccelerationField& field) {
+void LoadCollector::accelerate(const AttachedMass& mass, std::size_t effect, const AccelerationField& field) {
   const auto& s = mass.first_moment_kg_m;
   Array3Xd force = Array3Xd::Zero(3, n_instants_);
   ArrayXd moment = ArrayXd::Zero(n_instants_);  // about the origin
@@ -286,7 +278,7 @@ void LoadCollector::accelerate(const AttachedMass& mass, const std::string& effe
   torque(mass.port, effect, moment - (p[0] * force.row(1) - p[1] * force.row(0)).transpose());
 }
 
-Wrench LoadCollector::sum(const std::string& effect) const {
+Wrench LoadCollector::sum(std::size_t effect) const {
   const auto found = sums_.find(effect);
   return found != sums_.end() ? found->second : Wrench::Zero(6, n_instants_);
 }
@@ -314,6 +306,7 @@ BodyLoads LoadCollector::finish() const {
   result.history.body = body_.name;
   result.history.effects = effects_;
   result.pressures = pressures_;
+  result.pressing_force_N = pressing_force_N_;
   result.history.by_effect.assign(effects_.size(), Eigen::ArrayXXd::Zero(n_channels, n_instants_));
   result.history.values = Eigen::ArrayXXd::Zero(n_channels, n_instants_);
   for (Index k = 0; k < n_channels; ++k) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -50,20 +51,14 @@ struct BodyLoads {
   ChannelHistory history;
   std::vector<fem::UnitLoad> unit_loads;
   std::map<std::string, PressureModel> pressures;  ///< by port that a pressure loads; half angles known
+  /// Force that presses there, by such a port: what turns the pressure's harmonics.
+  std::map<std::string, Eigen::Array2Xd> pressing_force_N;
   /// Vibratory shaft: what the bearings carry, own mass included; fixed frame.
   Eigen::Array2Xd frame_bearing_force_N;
   Eigen::ArrayXd drive_torque_Nm;  ///< vibratory shaft: clockwise positive, own mass included
   /// Moment that a named guide (`pitch_guide`) carries, counter-clockwise; empty: none.
   Eigen::ArrayXd carried_moment_Nm;
   double carried_moment_scale_Nm = 0;  ///< the sum of the moments' sizes that it is judged by
-
-  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
-  BodyLoads();
-  BodyLoads(const BodyLoads&);
-  BodyLoads(BodyLoads&&) noexcept;
-  BodyLoads& operator=(const BodyLoads&);
-  BodyLoads& operator=(BodyLoads&&) noexcept;
-  ~BodyLoads();
 };
 
 /// Rows fx, fy, fz [N], mx, my, mz [N m] about the origin; a column per instant.
@@ -75,24 +70,28 @@ public:
   LoadCollector(const LoadedBody& body, std::vector<std::string> effects, Eigen::Index n_instants,
                 double force_scale_N);
 
-  // Loads at a port, in the body's frame. Force through the port's own point, or beside it along z where the
-  // axial profile of its pressure has its middle; moments about the port's own point.
+  /// The index of an effect, a new one if there is none of that name: what the body itself brings.
+  std::size_t effect(const std::string& name);
+
+  // Loads that an effect, by its index, brings at a port, in the body's frame. Force through the port's own
+  // point, or beside it along z where the axial profile of its pressure has its middle; moments about the
+  // port's own point.
   // @throws StageRefused if the body has no such port
-  void force(const std::string& port_name, const std::string& effect, const Eigen::Array2Xd& force_N);
-  void axial_force(const std::string& port, const std::string& effect, const Eigen::ArrayXd& force_N);
-  void torque(const std::string& port, const std::string& effect, const Eigen::ArrayXd& moment_Nm);
-  void tilt(const std::string& port_name, const std::string& effect, const Eigen::Array2Xd& moment_Nm);
+  void force(const std::string& port_name, std::size_t effect, const Eigen::Array2Xd& force_N);
+  void axial_force(const std::string& port, std::size_t effect, const Eigen::ArrayXd& force_N);
+  void torque(const std::string& port, std::size_t effect, const Eigen::ArrayXd& moment_Nm);
+  void tilt(const std::string& port_name, std::size_t effect, const Eigen::Array2Xd& moment_Nm);
 
   /// Harmonics of the pressure that the forces entered at the port so far make, by the port's model. They
   /// carry |F| cos(n beta), which is not linear in the effects; effect e gets the share F_e . F/|F|, so that
   /// the shares add up exactly. With a clearance the half angle is that under the largest force.
   void pressure(const std::string& port_name);
 
-  void accelerate(const RegionMass& region, const std::string& effect, const AccelerationField& field);
-  void accelerate(const AttachedMass& mass, const std::string& effect, const AccelerationField& field);
+  void accelerate(const RegionMass& region, std::size_t effect, const AccelerationField& field);
+  void accelerate(const AttachedMass& mass, std::size_t effect, const AccelerationField& field);
 
   /// Sum of what an effect has brought so far; zero for one that has brought nothing.
-  Wrench sum(const std::string& effect) const;
+  Wrench sum(std::size_t effect) const;
   Wrench sum() const;
   /// max over the instants of the sum of the moments' sizes about z: |x F_y| + |y F_x| + |couple| of what
   /// enters at each place, the effects taken together.
@@ -103,7 +102,7 @@ public:
   /// pressure. Where `resultant` holds an effect, that is the sum of its two reactions (and closing is then
   /// up to the load stage); elsewhere they balance what was collected.
   void react(const std::string& first, const std::string& second,
-             const std::map<std::string, Eigen::Array2Xd>& resultant = {});
+             const std::map<std::size_t, Eigen::Array2Xd>& resultant = {});
   // Whatever is left of that component about the port's own point, with the opposite sign, effect by effect.
   void react_force(const std::string& port);
   void react_axial(const std::string& port);
@@ -121,14 +120,12 @@ private:
   const meshes::Port& find(const std::string& port_name) const;
   double pressed_beside_m(const meshes::Port& port) const;
   fem::LoadSurface surface_of(const meshes::Port& port) const;
-  std::size_t index_of(const std::string& effect);
   void enter(const meshes::Port& port, const char* component, fem::SurfaceResultant::Component which,
-             const std::string& effect, const Eigen::ArrayXd& values);
-  void add(const fem::UnitLoad& load, const std::string& unit, const std::string& effect,
+             std::size_t effect, const Eigen::ArrayXd& values);
+  void add(const fem::UnitLoad& load, const std::string& unit, std::size_t effect,
            const Eigen::ArrayXd& values, double scale);
   /// @param load  about the point
-  void count(const std::string& place, const std::string& effect, const Eigen::Vector3d& point,
-             const Wrench& load);
+  void count(const std::string& place, std::size_t effect, const Eigen::Vector3d& point, const Wrench& load);
 
   LoadedBody body_;
   std::vector<std::string> effects_;
@@ -136,10 +133,11 @@ private:
   double force_scale_N_, length_scale_m_;
   std::vector<Entry> channels_;
   std::map<std::string, std::size_t> index_;
-  std::map<std::string, Wrench> sums_;
-  std::map<std::string, std::map<std::string, Eigen::Array2Xd>> forces_;  // by port, effect
+  std::map<std::size_t, Wrench> sums_;                                    // by effect
+  std::map<std::string, std::map<std::size_t, Eigen::Array2Xd>> forces_;  // by port, effect
   std::map<std::string, Eigen::Array3Xd> moments_Nm_;                     // by place: x F_y, y F_x, couple
   std::map<std::string, PressureModel> pressures_;                        // by port
+  std::map<std::string, Eigen::Array2Xd> pressing_force_N_;               // by port
 };
 
 /// Resolves a planar force along axes that are turned counter-clockwise by alpha.

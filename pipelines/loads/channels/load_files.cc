@@ -2,12 +2,15 @@
 
 #include <array>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "pipelines/base/common/errors.h"
+#include "pipelines/base/common/significant_bits.h"
 #include "pipelines/base/fields/shown_unit.h"
 #include "pipelines/base/files/atomic_file.h"
 #include "pipelines/base/files/csv.h"
@@ -87,8 +90,8 @@ std::vector<Series> series_of(const kinetics::LoadHistory& loads, const BodyChan
     }
   for (const auto& resultant : loads.resultants)
     for (const auto& part : resultant.contributions)
-      add_resultant(all, "/effects/" + checked(part.effect) + "/" + resultant.role,
-                    part.effect + "/" + resultant.role, resultant.description, part.load);
+      add_resultant(all, "/effects/" + checked(loads.effects[part.effect]) + "/" + resultant.role,
+                    loads.effects[part.effect] + "/" + resultant.role, resultant.description, part.load);
   for (const auto* body : bodies)
     for (std::size_t e = 0; e < body->effects.size(); ++e)
       for (std::size_t k = 0; k < body->channels.size(); ++k) {
@@ -106,12 +109,37 @@ std::vector<Series> series_of(const kinetics::LoadHistory& loads, const BodyChan
   return all;
 }
 
+/// Bits of an effect's part of a channel: 1e-11 of it. What is beyond them is noise of sums.
+constexpr int part_bits = 36;
+
+/// Datasets by label and values.
+using WrittenSeries = std::map<std::tuple<std::string, std::string, std::vector<double>>, std::string>;
+
+/// One dataset has the names of all series that are equal, as where one effect alone makes a channel.
+void write_series(Hdf5Writer& out, Series& series, WrittenSeries& written) {
+  const bool is_part = series.path.rfind("/effects/", 0) == 0;
+  const auto there = [&] {
+    return written.find({series.label.unit, series.label.description, series.values});
+  };
+  auto found = there();
+  if (found == written.end() && is_part) {
+    for (double& value : series.values) value = with_significant_bits(value, part_bits);
+    found = there();
+  }
+  if (found != written.end()) return out.link(series.path, found->second);
+  out.write(series.path, series.values.data(), {series.values.size()}, series.label,
+            Hdf5Compression::deflate);
+  written.emplace(std::tuple(series.label.unit, series.label.description, std::move(series.values)),
+                  series.path);
+}
+
 }  // namespace
 
 void write_loads_h5(const std::filesystem::path& path, const kinetics::LoadHistory& loads,
                     const BodyChannels& bodies) {
   for (const auto* body : bodies) check_channels(*body, loads.n_instants());
-  const auto all = series_of(loads, bodies);
+  auto all = series_of(loads, bodies);
+  WrittenSeries written;
   AtomicFile file(path);
   Hdf5Writer out(file.temporary());
   out.attribute("/", "machine", loads.machine);
@@ -119,7 +147,7 @@ void write_loads_h5(const std::filesystem::path& path, const kinetics::LoadHisto
   out.attribute(
       "/", "phases",
       "amplitude cos(n angle - phase), of a drive train's excitations cos(w t - phase): a lag is positive");
-  for (const auto& series : all) out.write(series.path, series.values, series.label);
+  for (auto& series : all) write_series(out, series, written);
   out.write("/effect_names", loads.effects,
             {"", "effects evaluated by the machine, in the order of summation"});
   out.write("/warnings", loads.warnings);

@@ -36,7 +36,7 @@ double radius_of_gyration_m(const std::vector<RegionMass>& regions) {
 }  // namespace
 
 void LoadCollector::react(const std::string& first, const std::string& second,
-                          const std::map<std::string, Array2Xd>& resultant) {
+                          const std::map<std::size_t, Array2Xd>& resultant) {
   const auto pressed_at = [&](const std::string& name) {
     const auto& port = find(name);
     return Eigen::Vector3d(centre_of(port) + pressed_beside_m(port) * Eigen::Vector3d::UnitZ());
@@ -52,7 +52,7 @@ void LoadCollector::react(const std::string& first, const std::string& second,
         "\" lie at the same place along z: they carry no tilting moment; name two that lie apart, "
         "or where one port holds the body of a load table that port alone, as clamp = \"" +
         first + "\"");
-  std::map<std::string, Wrench> loads = sums_;
+  std::map<std::size_t, Wrench> loads = sums_;
   for (const auto& [effect, sum] : resultant) loads.try_emplace(effect, Wrench::Zero(6, n_instants_));
   for (const auto& [effect, load] : loads) {
     const Wrench moved = about(load, a);
@@ -67,24 +67,24 @@ void LoadCollector::react(const std::string& first, const std::string& second,
 }
 
 void LoadCollector::react_force(const std::string& port) {
-  for (const auto& [effect, load] : std::map<std::string, Wrench>(sums_))
+  for (const auto& [effect, load] : std::map<std::size_t, Wrench>(sums_))
     force(port, effect, -load.topRows<2>());
 }
 
 void LoadCollector::react_axial(const std::string& port) {
-  for (const auto& [effect, load] : std::map<std::string, Wrench>(sums_))
+  for (const auto& [effect, load] : std::map<std::size_t, Wrench>(sums_))
     axial_force(port, effect, -load.row(2).transpose());
 }
 
 void LoadCollector::react_torque(const std::string& port) {
   const Eigen::Vector3d p = centre_of(find(port));
-  for (const auto& [effect, load] : std::map<std::string, Wrench>(sums_))
+  for (const auto& [effect, load] : std::map<std::size_t, Wrench>(sums_))
     torque(port, effect, -about(load, p).row(5).transpose());
 }
 
 void LoadCollector::react_tilt(const std::string& port) {
   const Eigen::Vector3d p = centre_of(find(port));
-  for (const auto& [effect, load] : std::map<std::string, Wrench>(sums_))
+  for (const auto& [effect, load] : std::map<std::size_t, Wrench>(sums_))
     tilt(port, effect, -about(load, p).middleRows<2>(3));
 }
 

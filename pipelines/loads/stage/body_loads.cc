@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "pipelines/base/common/errors.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/loads/stage/load_maker.h"
 
 namespace pipelines {
 
@@ -41,7 +41,7 @@ LoadedBody loaded_body(const BodyScene& scene, const MeshedBody& meshed) {
 
 BodyLoads distribute_body(const Scene& scene, const BodyScene& body, const kinetics::LoadHistory& history,
                           const LoadedBody& loaded, const MassAgreement& masses) {
-  return kind_of(body).distribute(scene, body, history, loaded, masses);
+  return load_maker_of(body).distribute(scene, body, history, loaded, masses);
 }
 
 void require_closure(const std::string& body, const Closure& closure) {

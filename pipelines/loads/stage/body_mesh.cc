@@ -6,7 +6,8 @@
 #include "meshes/shaft/shaft.h"
 #include "meshes/values/refused.h"
 #include "pipelines/base/common/several_ranks.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/loads/stage/load_maker.h"
+#include "pipelines/scene/whole/body_reader.h"
 
 namespace pipelines {
 namespace {
@@ -68,13 +69,6 @@ std::vector<fem::LoadSurface> round_ports(const meshes::BodyMesh& mesh) {
 
 }  // namespace
 
-MeshedBody::MeshedBody() = default;
-MeshedBody::MeshedBody(const MeshedBody&) = default;
-MeshedBody::MeshedBody(MeshedBody&&) noexcept = default;
-MeshedBody& MeshedBody::operator=(const MeshedBody&) = default;
-MeshedBody& MeshedBody::operator=(MeshedBody&&) noexcept = default;
-MeshedBody::~MeshedBody() = default;
-
 meshes::BodyMesh build_mesh(const BodyScene& body) {
   try {
     return std::visit(Build{}, body.shape);
@@ -101,7 +95,6 @@ fem::Body to_fem_body(const meshes::BodyMesh& mesh, const fem::Material& materia
 
 MeshedBody mesh_body(const BodyScene& body, const std::vector<kinetics::Spring>& springs,
                      const MeshedBody* coarse) {
-  const BodyKind& kind = kind_of(body);
   MeshedBody result;
   if (coarse != nullptr) {
     result.mesh = coarse->mesh;
@@ -113,11 +106,12 @@ MeshedBody mesh_body(const BodyScene& body, const std::vector<kinetics::Spring>&
   result.body = to_fem_body(result.mesh, body.material);
   result.body.degree = body.degree;
   result.body.refinements = body.refinements;
-  if (kind.has_elastic_feet(body)) result.body.elastic_supports = elastic_feet(result.mesh, springs);
+  if (reader_of(body).has_elastic_feet(body))
+    result.body.elastic_supports = elastic_feet(result.mesh, springs);
   result.model = std::make_shared<const fem::Model>(result.body, ranks_of_a_body());
   result.masses = result.model->mass_properties();
   result.geometry_error = result.model->geometry_error(round_ports(result.mesh));
-  result.regions = kind.regions(result);
+  result.regions = load_maker_of(body).regions(result);
   return result;
 }
 

@@ -21,14 +21,6 @@ struct MeshedBody {
   /// "structure" and "exciter" of a chamber; otherwise the whole body. A chamber of one piece is all
   /// structure: its exciter is an added mass.
   std::vector<RegionMass> regions;
-
-  // Defined in the .cc file: else every file that copies one compiles the copies of all members anew.
-  MeshedBody();
-  MeshedBody(const MeshedBody&);
-  MeshedBody(MeshedBody&&) noexcept;
-  MeshedBody& operator=(const MeshedBody&);
-  MeshedBody& operator=(MeshedBody&&) noexcept;
-  ~MeshedBody();
 };
 
 /// The mesh alone.

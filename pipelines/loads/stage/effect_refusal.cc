@@ -7,8 +7,8 @@
 #include "pipelines/base/names/name_lists.h"
 #include "pipelines/loads/stage/body_loads.h"
 #include "pipelines/loads/stage/effect_closure.h"
+#include "pipelines/loads/stage/load_maker.h"
 #include "pipelines/scene/whole/body_effects.h"
-#include "pipelines/scene/whole/body_kind.h"
 
 namespace pipelines {
 namespace {
@@ -104,7 +104,7 @@ void require_equilibrium(const Scene& scene, const std::vector<MeshedBody>& mesh
     const Closure closure = closure_of(loads[i], regions);
     if (closure.holds()) continue;
     const auto unbalanced = unbalanced_effects(loads[i], regions);
-    const auto support = kind_of(body).missing_support(body, closure);
+    const auto support = load_maker_of(body).missing_support(body, closure);
     const auto remedy = remedy_text(remedies_for(scene, meshed, masses, unbalanced), support);
     if (remedy.empty() || closure.channel_resultant > Closure::limit)
       require_closed_loads(loads[i], regions);  // no choice of effects is at fault

@@ -7,8 +7,9 @@
 #include "pipelines/base/names/name_lists.h"
 #include "pipelines/loads/channels/finite_loads.h"
 #include "pipelines/loads/stage/effect_closure.h"
+#include "pipelines/loads/stage/load_maker.h"
 #include "pipelines/loads/stage/start_up_loads.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 #include "pipelines/scene/whole/machine_kind.h"
 
 namespace pipelines {
@@ -33,7 +34,7 @@ std::vector<BearingScene> with_speeds(const Scene& scene, const Loaded& loaded) 
         return channel.name == bearing.load + ".fx" || channel.name == bearing.load + ".fy";
       });
       const auto& body = scene.bodies[i];
-      const double spin_Hz = carries ? kind_of(body).spin_Hz(scene, body, loaded.loads) : 0;
+      const double spin_Hz = carries ? load_maker_of(body).spin_Hz(scene, body, loaded.loads) : 0;
       if (spin_Hz > 0) bearing.speed_rad_s = 2 * pi * spin_Hz;
     }
   return bearings;
@@ -45,7 +46,7 @@ ChannelHistory unloaded_bearings(const Scene& scene, const Loaded& loaded) {
   ChannelHistory zeros;
   for (const auto& bearing : scene.bearings) {
     const bool is_of_body = std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const auto& body) {
-      return contains(kind_of(body).bearing_loads(body), bearing.load);
+      return contains(reader_of(body).bearing_loads(body), bearing.load);
     });
     if (is_of_body && !force_of(bearing.load, loaded.loads, loaded.channels()))
       zeros.channels.push_back({bearing.load + ".fx", "N"});
@@ -116,14 +117,17 @@ Loaded load_bodies(const Scene& scene, std::vector<MeshedBody> meshed, StageCloc
     }));
   clock.run("distribute", [&] { add_passed_over(scene, result); });
   for (std::size_t i = 0; i < result.meshed.size(); ++i)
-    kind_of(scene.bodies[i])
+    load_maker_of(scene.bodies[i])
         .require_supports(scene.bodies[i], result.body_loads[i], result.meshed[i].regions);
   require_equilibrium(scene, result.meshed, result.masses, result.body_loads);
   for (std::size_t i = 0; i < result.meshed.size(); ++i) {
     const auto& body = scene.bodies[i];
     const auto& loads = result.body_loads[i];
     require_finite(loads);
-    kind_of(body).report(scene, body, loads, result.loads);
+    const LoadMaker& maker = load_maker_of(body);
+    for (auto& quantity : maker.quantities(loads)) result.loads.quantities.push_back(std::move(quantity));
+    if (auto warning = maker.warning(scene, body, loads); !warning.empty())
+      result.loads.warnings.push_back(std::move(warning));
   }
   const auto unloaded = unloaded_bearings(scene, result);
   auto channels = result.channels();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/loads/stage/load_maker.h"
 
 namespace pipelines {
 
@@ -16,7 +16,7 @@ MassAgreement agree_masses(const Scene& scene, const std::vector<MeshedBody>& bo
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto& body = scene.bodies[i];
     result.attached[body.name];
-    kind_of(body).agree_masses(scene, body, bodies[i], result);
+    load_maker_of(body).agree_masses(scene, body, bodies[i], result);
   }
   return result;
 }

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "pipelines/loads/stage/load_stage.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 
 namespace pipelines {
 namespace {
@@ -131,8 +131,8 @@ bool have_one_stiffness(const Scene& a, const Scene& b, std::size_t i) {
   };
   const BodyScene &first = a.bodies[i], &second = b.bodies[i];
   if (material(first.material) != material(second.material) || first.solver != second.solver) return false;
-  const bool elastic = kind_of(first).has_elastic_feet(first);
-  if (elastic != kind_of(second).has_elastic_feet(second)) return false;
+  const bool elastic = reader_of(first).has_elastic_feet(first);
+  if (elastic != reader_of(second).has_elastic_feet(second)) return false;
   if (!elastic) return true;
   const auto these = springs_of(a), those = springs_of(b);
   return std::equal(these.begin(), these.end(), those.begin(), those.end(),

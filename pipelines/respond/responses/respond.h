@@ -2,32 +2,37 @@
 /// solved.
 #pragma once
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include "pipelines/base/common/stage_clock.h"
 #include "pipelines/respond/responses/responded.h"
 
 namespace pipelines {
 
-/// The file in a body's folder that keeps the unit responses of a model; a beam keeps none.
-std::string kept_responses_name(Method method);
-
-/// By the body's solid model.
+/// By the body's solid model. Displacements have 24 significant bits, as they have in the user's cache.
 /// @throws fem::SolveFailed, fem::DoesNotFit as fem::Model::unit_responses
 Responded respond(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads, const RunOptions& options,
                   StageClock& clock);
 
-/// Leaves the unit responses in unit_responses.h5 for the next run.
-/// @return text_hash of the key that they are kept under
-std::string keep_responses(const BodyScene& body, const MeshedBody& meshed, const Responded& responded,
-                           const RunOptions& options, StageClock& clock);
+/// Key of the unit responses of a solid model: all that they depend on.
+std::string key_of_responses(const BodyScene& body, const MeshedBody& meshed, const BodyLoads& loads,
+                             const RunOptions& options);
 
-/// Leaves the unit responses of harmonics around the axis, at their revolved nodes, in unit_harmonics.h5 for
-/// whoever reads stress over the cycle. No run takes them again: their key is their own content. Those of a
-/// solid stay beside them, for its next run.
-/// @return text_hash of the key that they are kept under
-/// @throws FileError naming the file if it cannot be written
-std::string keep_harmonics(const Responded& responded, const RunOptions& options, StageClock& clock);
+/// Key of the unit responses of harmonics around the axis, at their revolved nodes: their own content.
+/// Whoever reads stress over the cycle takes them, and no run does.
+std::string key_of_harmonics(const fem::UnitResponses& responses);
+
+/// What a run has in the user's cache.
+struct KeptResponses {
+  std::map<std::string, std::string> keys;  ///< by body; cached files have the names of their hashes
+  std::vector<std::string> faults;          ///< sentences for the user: what is not there, and why
+
+  /// Leaves unit responses in the cache, unless they came from there. Called on all ranks that share the
+  /// body.
+  void keep(const Responded& responded, const std::string& key, StageClock& clock);
+};
 
 /// So many threads, or as many as the machine has where the number is not positive.
 int threads(int wanted);

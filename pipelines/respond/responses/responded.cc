@@ -4,13 +4,6 @@
 
 namespace pipelines {
 
-Responded::Responded() = default;
-Responded::Responded(const Responded&) = default;
-Responded::Responded(Responded&&) noexcept = default;
-Responded& Responded::operator=(const Responded&) = default;
-Responded& Responded::operator=(Responded&&) noexcept = default;
-Responded::~Responded() = default;
-
 Responded responded(const BodyScene& body, const MeshedBody& meshed, BodyLoads loads,
                     fem::UnitResponses responses) {
   Responded result;

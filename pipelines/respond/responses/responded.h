@@ -1,7 +1,6 @@
 /// What the stage `respond` knows of a body: its mesh, its loads, and the unit responses to them.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,12 +11,11 @@
 
 namespace pipelines {
 
-/// Where a run keeps the files of a body and what it may use.
+/// What the work on a body may use.
 struct RunOptions {
-  std::filesystem::path directory;  ///< of this body
-  int n_threads = 0;                ///< 0: all cores
-  bool fresh = false;               ///< do not reuse unit responses of an earlier run
-  bool keep_factor = false;         ///< a search refines locally: for its goals, and instead of submodels
+  int n_threads = 0;         ///< 0: all cores
+  bool fresh = false;        ///< do not reuse unit responses of an earlier run
+  bool keep_factor = false;  ///< a search refines locally: for its goals, and instead of submodels
 };
 
 struct Responded {
@@ -32,14 +30,6 @@ struct Responded {
   bool responses_reused = false;      ///< taken from an earlier run
   std::vector<std::string> warnings;  ///< of damaged files that an earlier run has left
   double solve_s = 0;                 ///< wall time; 0: taken from before
-
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
-  Responded();
-  Responded(const Responded&);
-  Responded(Responded&&) noexcept;
-  Responded& operator=(const Responded&);
-  Responded& operator=(Responded&&) noexcept;
-  ~Responded();
 };
 
 /// A body with unit responses that a model has found.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
@@ -22,7 +23,7 @@ namespace pipelines {
 namespace {
 
 /// Version of the file's arrangement: files of another one count as missing.
-constexpr double arrangement = 5;
+constexpr double arrangement = 6;
 
 struct Counts {
   std::size_t nodes, cells, faces, channels, planes, rings;
@@ -129,12 +130,22 @@ bool is_of_nodes(const std::string& name) {
 /// Nodes whose rows are written or read at once.
 constexpr std::size_t nodes_at_once = 8192;
 
-/// Rows of all nodes, one piece after another, from the ranks that have them.
+/// Rows of all nodes, one piece after another, from the ranks that have them. The others wait for the first
+/// one, so that it takes all pieces even where it cannot write them.
+/// @param out  null: of another rank, or without a file
 void write_shared(Hdf5Writer* out, const std::string& name, const std::vector<double>& rows,
                   const std::vector<std::size_t>& extents, const Hdf5Label& label,
                   const fem::UnitResponses& responses) {
   const std::size_t width = extents[1] * extents[2];
-  if (out != nullptr) out->make(name, extents, label);
+  std::exception_ptr failure;
+  const auto write = [&](const auto& part) {
+    try {
+      if (out != nullptr && !failure) part();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  };
+  write([&] { out->make(name, extents, label, Hdf5Compression::deflate); });
   std::vector<double> piece;
   for (std::size_t first = 0; first < extents[0]; first += nodes_at_once) {
     const std::size_t n = std::min(nodes_at_once, extents[0] - first);
@@ -143,8 +154,17 @@ void write_shared(Hdf5Writer* out, const std::string& name, const std::vector<do
       if (responses.has(first + i))
         std::copy_n(&rows[responses.row_of(first + i) * width], width, &piece[i * width]);
     fem::add_on_first(responses.shared->communicator, piece.data(), piece.size());
-    if (out != nullptr) out->write_rows(name, piece.data(), first, n);
+    write([&] { out->write_rows(name, piece.data(), first, n); });
   }
+  if (failure) std::rethrow_exception(failure);
+}
+
+/// Hands rows of nodes to the first rank: those of displacement, stress, or of what is left of these.
+void hand_over(const fem::UnitResponses& responses, int n_done) {
+  const std::size_t n = responses.nodes.n, n_channels = responses.channels.size();
+  if (n_done < 1)
+    write_shared(nullptr, "/displacement", responses.displacement_m, {n, n_channels, 3}, {}, responses);
+  if (n_done < 2) write_shared(nullptr, "/stress", responses.stress_Pa, {n, n_channels, 6}, {}, responses);
 }
 
 void read_shared(const Hdf5Reader& in, const std::string& name, std::vector<double>& rows,
@@ -212,17 +232,10 @@ fem::UnitResponses read(const Hdf5Reader& in) {
   return r;
 }
 
-}  // namespace
-
-void write_unit_responses(const std::filesystem::path& path, const std::string& key,
-                          const fem::UnitResponses& responses) {
-  if (responses.shared && !is_first_rank()) {
-    const std::size_t n = responses.nodes.n, n_channels = responses.channels.size();
-    write_shared(nullptr, "/displacement", responses.displacement_m, {n, n_channels, 3}, {}, responses);
-    write_shared(nullptr, "/stress", responses.stress_Pa, {n, n_channels, 6}, {}, responses);
-    return;
-  }
-  AtomicFile file(path, is_own_kept_file);
+/// @param n_handed_over  counts the arrays of nodes that other ranks have handed over
+void write_file(const std::filesystem::path& path, const std::string& key,
+                const fem::UnitResponses& responses, int& n_handed_over) {
+  AtomicFile file(path);
   Hdf5Writer out(file.temporary());
   out.attribute("/", "key", key);
   out.attribute("/", kept_attribute, arrangement);
@@ -264,19 +277,19 @@ void write_unit_responses(const std::filesystem::path& path, const std::string& 
       const_cast<fem::UnitResponses&>(responses), n,
       [&](const char* name, auto& values, const auto& extents, const Hdf5Label& label) {
         if constexpr (std::is_same_v<std::decay_t<decltype(values)>, std::vector<double>>)
-          if (responses.shared && is_of_nodes(name))
+          if (responses.shared && is_of_nodes(name)) {
+            ++n_handed_over;
             return write_shared(&out, name, values, extents, label, responses);
+          }
         if (!fits(values, extents))
           throw std::invalid_argument(std::string("unit responses: the size of ") + name +
                                       " does not fit the number of nodes, cells, channels, planes or rings");
-        out.write(name, entries(values), extents, label);
+        out.write(name, entries(values), extents, label, Hdf5Compression::deflate);
       });
   out.close();
   append_checksum(file.temporary(), key);
   file.commit();
 }
-
-namespace {
 
 /// @throws FileError, std::bad_alloc, std::length_error
 std::optional<fem::UnitResponses> read_whole(const std::filesystem::path& path, const std::string& key) {
@@ -287,6 +300,18 @@ std::optional<fem::UnitResponses> read_whole(const std::filesystem::path& path, 
 }
 
 }  // namespace
+
+void write_unit_responses(const std::filesystem::path& path, const std::string& key,
+                          const fem::UnitResponses& responses) {
+  if (responses.shared && !is_first_rank()) return hand_over(responses, 0);
+  int n_handed_over = 0;
+  try {
+    write_file(path, key, responses, n_handed_over);
+  } catch (...) {
+    if (responses.shared) hand_over(responses, n_handed_over);
+    throw;
+  }
+}
 
 std::optional<fem::UnitResponses> read_unit_responses(const std::filesystem::path& path,
                                                       const std::string& key, const Tell& tell) {
@@ -301,7 +326,8 @@ std::optional<fem::UnitResponses> read_unit_responses(const std::filesystem::pat
     std::optional<fem::UnitResponses> responses;
     fem::agree(ranks_of_a_body(), [&] { responses = read_whole(path, key); });
     return responses;
-  } catch (const FileError&) {  // whole, but not written by write_unit_responses
+  } catch (const FileError&) {  // whole, but not written by write_unit_responses; or removed meanwhile
+    if (!std::filesystem::exists(path)) return std::nullopt;
     return damaged();
   } catch (const fem::FailedTogether&) {  // on one of several ranks
     return damaged();

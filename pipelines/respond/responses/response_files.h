@@ -10,8 +10,8 @@
 
 namespace pipelines {
 
-/// Writes every field, exactly, with a checksum behind (kept_file.h). The large arrays are written in place,
-/// without copies.
+/// Writes every field, exactly and compressed, with a checksum behind (kept_file.h). The large arrays are
+/// written in place, without copies. Called on all ranks that share the body; what fails throws on the first.
 /// @throws std::invalid_argument naming the field if the sizes of the fields do not fit each other;
 ///         std::runtime_error naming the file if it cannot be written
 void write_unit_responses(const std::filesystem::path& path, const std::string& key,

@@ -3,19 +3,19 @@
 
 #include "pipelines/base/names/nearest_name.h"
 #include "pipelines/scene/bodies/scene_body.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 #include "pipelines/scene/whole/machine_kind.h"
 
 namespace pipelines {
 namespace {
 
 /// Tables of bodies, and what they are there.
-using BodyTables = std::vector<std::pair<std::string, const BodyKind*>>;
+using BodyTables = std::vector<std::pair<std::string, const BodyReader*>>;
 
 /// Tables of the bodies of all machines; a name that several kinds have once.
 BodyTables all_bodies() {
   BodyTables all;
-  for (const auto* kind : body_kinds())
+  for (const auto* kind : body_readers())
     for (const auto& name : kind->tables())
       if (std::none_of(all.begin(), all.end(), [&](const auto& known) { return known.first == name; }))
         all.emplace_back(name, kind);
@@ -24,7 +24,7 @@ BodyTables all_bodies() {
 
 BodyTables bodies_of(const std::string& machine_type) {
   BodyTables own;
-  for (const auto* kind : body_kinds())
+  for (const auto* kind : body_readers())
     if (kind->machine_type() == machine_type)
       for (const auto& name : kind->tables()) own.emplace_back(name, kind);
   return own;

@@ -2,12 +2,12 @@
 
 #include "pipelines/scene/bodies/scene_body_parts.h"
 #include "pipelines/scene/bodies/scene_fatigue.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 
 namespace pipelines {
 namespace {
 
-void read_added_masses(SceneTable& table, const BodyKind& kind, BodyScene& body) {
+void read_added_masses(SceneTable& table, const BodyReader& kind, BodyScene& body) {
   table.know("added_masses");
   if (table.has("added_masses"))
     for (SceneTable& entry : table.tables("added_masses")) {
@@ -53,7 +53,7 @@ void read_natural_frequencies(SceneTable& table, BodyScene& body) {
 
 }  // namespace
 
-BodyScene read_body(SceneTable& table, const BodyKind& kind, const Scene& scene, SceneFindings& findings) {
+BodyScene read_body(SceneTable& table, const BodyReader& kind, const Scene& scene, SceneFindings& findings) {
   BodyScene body;
   body.name = table.key();
   body.origin = table.origin();

@@ -10,7 +10,7 @@
 
 namespace pipelines {
 
-class BodyKind;
+class BodyReader;
 
 /// What a contour may hold, by the kind of body.
 struct ContourRules {
@@ -48,7 +48,7 @@ meshes::SolidControl read_solid_control(SceneTable mesh);
 
 /// Reads the body's table as a whole and closes it.
 /// @param scene  with its machine read
-BodyScene read_body(SceneTable& table, const BodyKind& kind, const Scene& scene, SceneFindings& findings);
+BodyScene read_body(SceneTable& table, const BodyReader& kind, const Scene& scene, SceneFindings& findings);
 
 /// Reads the tables of all bodies that the scene's machine may have into scene.bodies; refuses those of other
 /// machines.

@@ -8,6 +8,7 @@
 
 #include "meshes/values/utf8.h"
 #include "pipelines/base/common/errors.h"
+#include "pipelines/base/files/csv.h"
 #include "pipelines/scene/reader/removed_body.h"
 
 namespace pipelines {
@@ -283,6 +284,45 @@ std::vector<std::string> apply_all(const std::vector<Setting>& settings, TomlNod
   return told;
 }
 
+/// A plain value, or a list of them.
+std::string text_of_value(const TomlNode& node) {
+  switch (node.kind) {
+    case TomlNode::Kind::text:
+      return node.text;
+    case TomlNode::Kind::integer:
+      return std::to_string(node.integer);
+    case TomlNode::Kind::number:
+      return shortest(node.number);
+    case TomlNode::Kind::boolean:
+      return node.boolean ? "true" : "false";
+    case TomlNode::Kind::array: {
+      std::string texts;
+      for (const auto& item : node.items) texts += (texts.empty() ? "" : ", ") + text_of_value(item);
+      return texts;
+    }
+    case TomlNode::Kind::date:
+    case TomlNode::Kind::table:
+      return node.as_written;
+  }
+  return "";
+}
+
+void add_texts(const TomlNode& node, const std::string& key, std::map<std::string, std::string>& texts) {
+  const auto has_parts = [](const TomlNode& item) {
+    return item.kind == TomlNode::Kind::table || item.kind == TomlNode::Kind::array;
+  };
+  if (node.kind == TomlNode::Kind::table) {
+    for (const auto& entry : node.entries)
+      add_texts(entry.value, key.empty() ? entry.key : key + "." + entry.key, texts);
+  } else if (node.kind == TomlNode::Kind::array &&
+             std::any_of(node.items.begin(), node.items.end(), has_parts)) {
+    std::size_t number = 0;
+    for (const auto& item : node.items) add_texts(item, key + "[" + std::to_string(++number) + "]", texts);
+  } else {
+    texts[key] = text_of_value(node);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> set_keys(TomlNode& root, const std::vector<std::string>& settings,
@@ -297,6 +337,12 @@ void set_entries(TomlNode& root, const TomlNode& table, const std::string& key,
   std::vector<Setting> all;
   collect(table, "", key, file, all);
   apply_all(all, root);
+}
+
+std::map<std::string, std::string> texts_by_key(const TomlNode& root) {
+  std::map<std::string, std::string> texts;
+  add_texts(root, "", texts);
+  return texts;
 }
 
 }  // namespace pipelines

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -32,5 +33,8 @@ std::vector<std::string> set_keys(TomlNode& root, const std::vector<std::string>
 /// @throws SceneError as set_keys, at the value's place
 void set_entries(TomlNode& root, const TomlNode& table, const std::string& key,
                  const std::filesystem::path& file);
+
+/// Every value of a scene as a text, by its key as messages name it. Arrays of plain values are one text.
+std::map<std::string, std::string> texts_by_key(const TomlNode& root);
 
 }  // namespace pipelines

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "pipelines/base/names/name_lists.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 
 namespace pipelines {
 namespace {
@@ -18,11 +18,11 @@ std::string text_at(const TomlNode& table, const std::string& key) {
 }
 
 /// The kind of body that a table describes; null: none of the scene's machine.
-const BodyKind* kind_of_table(const TomlNode& root, const std::string& table) {
+const BodyReader* kind_of_table(const TomlNode& root, const std::string& table) {
   const auto* machine = root.find("machine");
   if (machine == nullptr) return nullptr;
   const auto type = text_at(machine->value, "type");
-  for (const auto* kind : body_kinds())
+  for (const auto* kind : body_readers())
     if (kind->machine_type() == type && contains(kind->tables(), table)) return kind;
   return nullptr;
 }
@@ -47,14 +47,14 @@ std::vector<std::string> texts_below(const TomlNode& node, const std::vector<std
 }
 
 /// Effects that no other part of the scene knows.
-std::vector<std::string> effects_of(const TomlNode& root, const BodyKind& kind, const TomlNode& body) {
+std::vector<std::string> effects_of(const TomlNode& root, const BodyReader& kind, const TomlNode& body) {
   auto effects = texts_below(body, {"effect"});
   for (const auto& own : kind.own_effects()) effects.push_back(own.name);
   return names_without(effects, texts_below(root.find("machine")->value, {"effect", "name"}));
 }
 
 /// Forces on the body that a bearing may name.
-std::vector<std::string> loads_of(const BodyKind& kind, const TomlNode& body) {
+std::vector<std::string> loads_of(const BodyReader& kind, const TomlNode& body) {
   try {
     return kind.bearing_loads(BodyScene());
   } catch (const std::bad_variant_access&) {  // the kind has them from the body's own table
@@ -130,7 +130,7 @@ bool is_body_table(const TomlNode& root, const std::string& table) {
 
 std::vector<std::string> drop_what_needs(TomlNode& root, const std::string& table, const TomlNode& body) {
   std::vector<std::string> told;
-  const BodyKind* const kind = kind_of_table(root, table);
+  const BodyReader* const kind = kind_of_table(root, table);
   if (kind == nullptr) return told;
   const auto tell = [&](const std::string& what, const std::vector<std::string>& names) {
     for (const auto& name : names)

@@ -4,7 +4,7 @@
 
 #include "pipelines/base/names/name_lists.h"
 #include "pipelines/base/names/nearest_name.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 
 namespace pipelines {
 
@@ -61,7 +61,7 @@ bool has_effect(const std::vector<kinetics::EffectInfo>& table, const std::strin
 }
 
 void add_own_effects(EffectRules& rules, const std::string& machine_type, const SceneTable& root) {
-  for (const auto* kind : body_kinds()) {
+  for (const auto* kind : body_readers()) {
     if (kind->machine_type() != machine_type) continue;
     const std::string table = kind->tables().front();
     const bool has_body = root.has(table), begins_with_vowel = table.find_first_of("aeiou") == 0;

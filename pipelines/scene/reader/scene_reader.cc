@@ -16,7 +16,7 @@
 #include "pipelines/scene/reader/scene_duty.h"
 #include "pipelines/scene/reader/scene_stages.h"
 #include "pipelines/scene/reader/scene_tree.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 #include "pipelines/scene/whole/machine_kind.h"
 #include "pipelines/scene/whole/plausibility.h"
 #include "pipelines/scene/whole/scene.h"
@@ -106,7 +106,7 @@ void refuse_machine(SceneTable& root, SceneTable& machine, const std::string& ty
   for (const char* key : {"effects", "sampling", "bearings", "zones", "results", "tolerance", "time_limit",
                           "method", "sweep", "duty", "limits"})
     root.know(key);
-  for (const auto* kind : body_kinds())
+  for (const auto* kind : body_readers())
     for (const auto& table : kind->tables()) root.know(table);
   root.finish();
 }
@@ -135,6 +135,7 @@ Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::ve
   Scene scene;
   scene.file = file;
   scene.settings = settings;
+  scene.keys = texts_by_key(tree);
   scene.title = root.text_or("title", file.stem().string(), "the name of the file");
   SceneTable machine = root.table("machine");
   const std::string type = machine.has("type") ? machine.text("type") : "";
@@ -174,6 +175,7 @@ Scene read_scene(const std::filesystem::path& file, TomlNode tree, const std::ve
   scene.defaults = std::move(findings.defaults);
   scene.warnings = std::move(findings.warnings);
   scene.known_keys.assign(findings.keys.begin(), findings.keys.end());
+  scene.key_forms = std::move(findings.forms);
   for (auto& doubt : implausible(scene)) scene.warnings.push_back(std::move(doubt));
   return scene;
 }

@@ -7,7 +7,7 @@
 #include "pipelines/base/names/nearest_name.h"
 #include "pipelines/scene/reader/scene_stages.h"
 #include "pipelines/scene/values/known_forces.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 #include "pipelines/scene/whole/machine_kind.h"
 
 namespace pipelines {
@@ -17,7 +17,7 @@ namespace {
 void check_bearings(const Scene& scene, const kinetics::LoadHistory& loads, SceneTable& root) {
   std::vector<std::string> of_bodies;
   for (const auto& body : scene.bodies) {
-    const auto own = kind_of(body).bearing_loads(body);
+    const auto own = reader_of(body).bearing_loads(body);
     of_bodies.insert(of_bodies.end(), own.begin(), own.end());
   }
   for (const auto& load : kind_of(scene.machine).added_loads(scene)) of_bodies.push_back(load);

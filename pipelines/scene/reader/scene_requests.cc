@@ -116,8 +116,19 @@ LimitsScene read_limits(SceneTable table) {
 }
 
 void read_results(SceneTable results, Scene& scene) {
-  scene.snapshots = results.count_or("snapshots", 0, 3600, 24, "over the turn that contains the peak");
+  scene.snapshots = results.count_or("snapshots", 0, 3600, 12, "over the turn that contains the peak");
   scene.pictures = results.flag_or("pictures", true, "of the envelope, as PNG");
+  const std::string keep =
+      results.text_or("keep", "results", "unit responses are in the user's cache (millstress cache)");
+  if (keep == "all")
+    scene.keep = Keep::all;
+  else if (keep == "report")
+    scene.keep = Keep::report;
+  else if (keep != "results" && !keep.empty())
+    results.refuse(
+        "keep",
+        "write \"results\", \"all\" for unit responses and loads.csv too, or \"report\" for summary.json and "
+        "report.html alone");
   results.finish();
 }
 

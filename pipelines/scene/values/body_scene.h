@@ -50,7 +50,7 @@ struct BodyScene {
   std::string name;    ///< "shaft", "chamber", "drum", "axle", "part": table and directory
   std::string origin;  ///< "file:line:column: table", named by errors that meshing brings to light
   std::map<std::string, std::string> mesh_keys;  ///< "file:line:column: key = value" by key of [<name>.mesh]
-  BodyOptions options;                           ///< options of the body's kind (body_kind.h)
+  BodyOptions options;                           ///< options of the body's kind (body_reader.h)
   BodyShape shape;
   fem::Material material;
   std::string material_name;

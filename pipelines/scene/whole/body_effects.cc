@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 #include "pipelines/scene/whole/scene.h"
 
 namespace pipelines {
@@ -10,13 +10,13 @@ namespace pipelines {
 using kinetics::EffectInfo;
 
 std::vector<EffectInfo> body_effect_table(const BodyScene& body) {
-  return kind_of(body).effects(body);
+  return reader_of(body).effects(body);
 }
 
 std::vector<EffectInfo> effect_table(const Scene& scene) {
   std::vector<EffectInfo> table = effects_of(scene.machine);
   for (const auto& body : scene.bodies) {
-    kind_of(body).add_needs(scene, table);
+    reader_of(body).add_needs(scene, table);
     for (auto& info : body_effect_table(body)) table.push_back(std::move(info));
   }
   return table;

@@ -6,7 +6,7 @@
 
 #include "pipelines/base/common/constants.h"
 #include "pipelines/base/fatigue/weld_classes.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 #include "pipelines/scene/whole/machine_kind.h"
 
 namespace pipelines {
@@ -45,7 +45,7 @@ void doubt_material(const BodyScene& body, Doubts& doubts) {
 
 /// The fastest seat of a shaft.
 void doubt_seats(const Scene& scene, const BodyScene& body, Doubts& doubts) {
-  const auto speed_rad_s = kind_of(body).seat_speed_rad_s(scene, body);
+  const auto speed_rad_s = reader_of(body).seat_speed_rad_s(scene, body);
   if (!speed_rad_s || body.shaft() == nullptr) return;
   const meshes::ShaftSegment* fastest = nullptr;
   for (const auto& segment : body.shaft()->geometry.segments)

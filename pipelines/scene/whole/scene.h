@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "pipelines/scene/values/limits_scene.h"
 #include "pipelines/scene/values/method.h"
 #include "pipelines/scene/values/requested_accuracy.h"
+#include "pipelines/scene/whole/key_form.h"
 #include "pipelines/scene/whole/machine.h"
 
 namespace pipelines {
@@ -83,9 +85,17 @@ struct EffectsKey {
   std::vector<std::string> offered;  ///< every effect that the scene has data for
 };
 
+/// What a run leaves in its directory.
+enum class Keep {
+  all,      ///< results, the bodies' unit responses, and the loads as a table
+  results,  ///< all but these, which are in the user's cache
+  report    ///< summary.json and report.html
+};
+
 struct Scene {
   std::filesystem::path file;
   std::vector<std::string> settings;  ///< "KEY=VALUE" of the command line, which the file does not have
+  std::map<std::string, std::string> keys;  ///< every value as a text by its key, settings included
   std::string title;
   std::string machine_origin;   ///< "file:line:column: machine", named by errors that come after reading
   std::string machine_type_at;  ///< "file:line:column: machine.type = ..."
@@ -106,12 +116,14 @@ struct Scene {
   Method method = Method::automatic;  ///< the model of every body
   RequestedAccuracy accuracy;         ///< how well the stresses are to be known, and in what time
   ZoneRule zones;
-  int snapshots = 24;    ///< over the turn that contains the peak; 0: none
+  int snapshots = 12;    ///< over the turn that contains the peak; 0: none
   bool pictures = true;  ///< pictures of the envelope, as PNG
+  Keep keep = Keep::results;
   std::vector<DefaultUsed> defaults;
   std::vector<std::string> warnings;  ///< sentences for the user: legal, but worth a look
   /// Every key that the reader knows in this scene, whether it is there or not: dotted, items counted from 1.
   std::vector<std::string> known_keys;
+  KeyForms key_forms;  ///< what may stand under them
 
   /// Masses that the scene leaves to the mesh: "structure", "exciter", "drum", or the name of a train's
   /// inertia.

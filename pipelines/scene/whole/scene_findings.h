@@ -16,8 +16,9 @@ struct SceneFindings {
   std::vector<SceneFinding> errors;
   std::vector<DefaultUsed> defaults;
   std::vector<std::string> warnings;
-  bool are_noted = true;       ///< defaults and keys; else these two stay empty
+  bool are_noted = true;       ///< defaults, keys and forms; else these stay empty
   std::set<std::string> keys;  ///< every key that the reader knows here, dotted, items counted from 1
+  KeyForms forms;
 };
 
 /// The values that a quantity may take, in SI.

@@ -29,6 +29,18 @@ std::string text_fault(const std::string& key, const std::string& text) {
   return key == "title" || key == "file" ? control_character_in(text) : cell_fault(text);
 }
 
+/// A dotted name without the numbers of items.
+std::string without_numbers(const std::string& name) {
+  std::string result;
+  for (const char c : name)
+    if (result.empty() || result.back() != '[' || c < '0' || c > '9') result += c;
+  return result;
+}
+
+KeyForm form_of(KeyForm::Kind kind, const std::string& si_unit, const Range& range) {
+  return {kind, si_unit, range.least, range.most, range.without_least};
+}
+
 std::string item_of(const std::string& name, std::size_t index) {
   return name + "[" + std::to_string(index + 1) + "]";
 }
@@ -45,7 +57,15 @@ std::string SceneTable::dotted(const std::string& name) const {
 void SceneTable::know(const std::string& name) {
   if (std::find(known_.begin(), known_.end(), name) != known_.end()) return;
   known_.push_back(name);
-  if (findings_->are_noted) findings_->keys.insert(dotted(name));
+  if (!findings_->are_noted) return;
+  findings_->keys.insert(dotted(name));
+  findings_->forms.of_keys[without_numbers(dotted(name))];
+}
+
+void SceneTable::note(const std::string& name, const KeyForm& form) const {
+  if (!findings_->are_noted) return;
+  auto& forms = findings_->forms.of_keys[without_numbers(dotted(name))];
+  if (std::find(forms.begin(), forms.end(), form) == forms.end()) forms.push_back(form);
 }
 
 bool SceneTable::has(const std::string& name) const {
@@ -53,16 +73,19 @@ bool SceneTable::has(const std::string& name) const {
 }
 
 bool SceneTable::has_list(const std::string& name) const {
+  note(name, {KeyForm::Kind::list});
   const TomlEntry* const entry = node_->find(name);
   return entry != nullptr && entry->value.kind == TomlNode::Kind::array;
 }
 
 bool SceneTable::has_text(const std::string& name) const {
+  note(name, {KeyForm::Kind::text});
   const TomlEntry* const entry = node_->find(name);
   return entry != nullptr && entry->value.kind == TomlNode::Kind::text;
 }
 
 bool SceneTable::has_table(const std::string& name) const {
+  note(name, {KeyForm::Kind::table});
   const TomlEntry* const entry = node_->find(name);
   return entry != nullptr && entry->value.kind == TomlNode::Kind::table;
 }
@@ -156,6 +179,7 @@ double SceneTable::read_quantity(const TomlNode& node, const std::string& name, 
 }
 
 double SceneTable::quantity(const std::string& name, const std::string& si_unit, const Range& range) {
+  note(name, form_of(KeyForm::Kind::quantity, si_unit, range));
   const TomlEntry* const entry = require(
       name, "is missing; add it" +
                 (si_unit == "1" ? std::string() : ", as a number in " + si_unit + " or a text with a unit"));
@@ -164,6 +188,7 @@ double SceneTable::quantity(const std::string& name, const std::string& si_unit,
 
 double SceneTable::quantity_or(const std::string& name, const std::string& si_unit, const Range& range,
                                double value, const std::string& reason) {
+  note(name, form_of(KeyForm::Kind::quantity, si_unit, range));
   if (const TomlEntry* const entry = find(name); entry != nullptr)
     return read_quantity(entry->value, name, si_unit, range);
   record_default(name, shown(value) + (si_unit == "1" ? "" : " " + si_unit), reason);
@@ -172,6 +197,7 @@ double SceneTable::quantity_or(const std::string& name, const std::string& si_un
 
 std::vector<double> SceneTable::quantities(const std::string& name, const std::string& si_unit,
                                            const Range& range, std::size_t count) {
+  note(name, form_of(KeyForm::Kind::quantities, si_unit, range));
   std::vector<double> values(count, unreadable);
   const std::string wanted =
       "an array of " + std::to_string(count) + " quantities" + (si_unit == "1" ? "" : " in " + si_unit);
@@ -190,6 +216,7 @@ std::vector<double> SceneTable::quantities(const std::string& name, const std::s
 
 std::vector<double> SceneTable::list(const std::string& name, const std::string& si_unit,
                                      const Range& range) {
+  note(name, form_of(KeyForm::Kind::quantities, si_unit, range));
   const TomlEntry* const entry = require(name, "is missing; add an array of quantities");
   if (entry == nullptr) return {};
   const bool is_list = entry->value.kind == TomlNode::Kind::array && !entry->value.items.empty();
@@ -198,6 +225,7 @@ std::vector<double> SceneTable::list(const std::string& name, const std::string&
 }
 
 double SceneTable::ratio(const std::string& name) {
+  note(name, {KeyForm::Kind::quantity, "1"});
   const std::string wanted = "a number, or a fraction such as \"-1/20\"";
   const TomlEntry* const entry = require(name, "is missing; add " + wanted);
   if (entry == nullptr) return unreadable;
@@ -212,6 +240,7 @@ double SceneTable::ratio(const std::string& name) {
 }
 
 int SceneTable::count_or(const std::string& name, int least, int most, int value, const std::string& reason) {
+  note(name, {KeyForm::Kind::count, "", double(least), double(most)});
   const TomlEntry* const entry = find(name);
   if (entry == nullptr) {
     record_default(name, std::to_string(value), reason);
@@ -232,6 +261,7 @@ int SceneTable::count_or(const std::string& name, int least, int most, int value
 }
 
 bool SceneTable::flag_or(const std::string& name, bool value, const std::string& reason) {
+  note(name, {KeyForm::Kind::flag});
   const TomlEntry* const entry = find(name);
   if (entry == nullptr) {
     record_default(name, value ? "true" : "false", reason);
@@ -243,6 +273,7 @@ bool SceneTable::flag_or(const std::string& name, bool value, const std::string&
 }
 
 std::string SceneTable::text(const std::string& name, const std::string& remedy) {
+  note(name, {KeyForm::Kind::text});
   const TomlEntry* const entry = require(name, remedy);
   if (entry == nullptr) return {};
   if (entry->value.kind != TomlNode::Kind::text)
@@ -264,12 +295,14 @@ std::string SceneTable::name(const std::string& key, const std::string& remedy) 
 std::string SceneTable::text_or(const std::string& name, const std::string& value,
                                 const std::string& reason) {
   if (has(name)) return text(name);
+  note(name, {KeyForm::Kind::text});
   know(name);
   record_default(name, "\"" + value + "\"", reason);
   return value;
 }
 
 std::vector<TextAt> SceneTable::texts(const std::string& name) {
+  note(name, {KeyForm::Kind::texts});
   std::vector<TextAt> texts;
   const TomlEntry* const entry = require(name, "is missing; add an array of texts");
   if (entry == nullptr) return texts;
@@ -290,6 +323,7 @@ std::vector<TextAt> SceneTable::texts(const std::string& name) {
 }
 
 SceneTable SceneTable::table(const std::string& name) {
+  note(name, {KeyForm::Kind::table});
   const TomlEntry* const entry = require(name, "is missing; add the table [" + dotted(name) + "]");
   const bool is_table = entry != nullptr && entry->value.kind == TomlNode::Kind::table;
   if (entry != nullptr && !is_table)
@@ -302,6 +336,7 @@ SceneTable SceneTable::table(const std::string& name) {
 
 SceneTable SceneTable::table_or_empty(const std::string& name) {
   if (has(name)) return table(name);
+  note(name, {KeyForm::Kind::table});
   know(name);
   SceneTable result(empty_table(), dotted(name), *findings_);
   result.is_present_ = is_present_;
@@ -310,6 +345,7 @@ SceneTable SceneTable::table_or_empty(const std::string& name) {
 }
 
 std::vector<SceneTable> SceneTable::tables(const std::string& name) {
+  note(name, {KeyForm::Kind::tables});
   std::vector<SceneTable> result;
   const TomlEntry* const entry = require(name, "is missing; add it as an array of tables");
   if (entry == nullptr) return result;
@@ -353,6 +389,7 @@ std::string SceneTable::origin() const {
 }
 
 void SceneTable::finish() {
+  if (findings_->are_noted) findings_->forms.closed.insert(without_numbers(key_));
   std::vector<std::string> free;  // a key in use is not what was meant
   for (const std::string& name : known_)
     if (!has(name)) free.push_back(name);

@@ -96,6 +96,8 @@ private:
     std::string name, remedy;
   };
 
+  /// Notes what may stand under a key.
+  void note(const std::string& name, const KeyForm& form) const;
   const TomlEntry* find(const std::string& name);
   const TomlEntry* require(const std::string& name, const std::string& remedy);
   std::string dotted(const std::string& name) const;

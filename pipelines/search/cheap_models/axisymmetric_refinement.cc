@@ -14,6 +14,7 @@
 #include "pipelines/respond/responses/respond.h"
 #include "pipelines/scene/reader/why_not.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
+#include "pipelines/search/cheap_models/fitted.h"
 #include "pipelines/search/cheap_models/nodes_at_maxima.h"
 #include "pipelines/search/cheap_models/section_changes.h"
 #include "pipelines/search/cheap_models/torsion_by_feature.h"
@@ -105,14 +106,6 @@ Surroundings surroundings(const fem::MeridianBody& section, const meshes::BodyMe
   return Surroundings::any;
 }
 
-/// Torsional stress on one section alone: the largest error of 53 twisted shafts was 0.31 %, but for what
-/// lies between rings.
-constexpr double error_of_one_section = 0.02;
-
-/// Inside, of a node's value: sections keep their points there. A seat that is tilted had 6.86 MPa at 16 mm
-/// from the axis, where the solid had 7.06 at 15 mm.
-constexpr double unseen_inside = 0.04;
-
 }  // namespace
 
 const PlaceStress& AxisymmetricStep::peak() const {
@@ -182,7 +175,7 @@ void AxisymmetricRefinement::learn(AxisymmetricStep& step) {
     values.push_back(place.value_Pa);
     place.error_Pa = missing_Pa(values, surroundings(section_, meshed_->mesh, place));
     place.error_Pa += place.feature == inside_the_body
-                          ? unseen_inside * place.value_Pa
+                          ? fitted::unseen_inside * place.value_Pa
                           : rise_to_border_Pa({nodes, von_mises_Pa, step.node_places, meshed_->mesh}, place);
   }
 }
@@ -194,7 +187,7 @@ void AxisymmetricRefinement::learn_torsion(AxisymmetricStep& step) {
     if (now.value_Pa == 0) continue;  // not twisted, or no ring of it is outside what is left out
     auto& values_Pa = torsion_Pa_[feature];
     values_Pa.push_back(now.value_Pa);
-    const double error_Pa = now.rise_Pa + (values_Pa.size() < 2 ? error_of_one_section * now.value_Pa
+    const double error_Pa = now.rise_Pa + (values_Pa.size() < 2 ? fitted::error_of_one_section * now.value_Pa
                                                                 : missing_Pa(values_Pa, Surroundings::any));
     most_Pa = std::max(most_Pa, now.value_Pa + error_Pa);
     if (now.value_Pa < step.torsion.value_Pa) continue;

@@ -9,6 +9,7 @@
 #include "fem/models/beam/near_loads.h"
 #include "pipelines/base/common/constants.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
+#include "pipelines/search/cheap_models/fitted.h"
 
 namespace pipelines {
 namespace {
@@ -22,15 +23,6 @@ std::size_t segment_at(const meshes::Shaft& shaft, double z_m) {
 
 /// The beam's own estimate knows nothing of loads beside a fillet.
 constexpr double beam_safety = 3;
-/// What a fillet makes of stress that comes from a section going oval, at most: published factors in bending
-/// end there for fillets of a twentieth of the diameter.
-constexpr double fillet_factor = 2;
-/// What a shoulder adds to the stress of a cylinder that turns, at most: of 498 random shafts one had 11 %.
-constexpr double spin_at_shoulders = 1.25;
-
-/// On the tractions of torque and axial force: 1.25 bounds the stress of 155 random shafts with such loads on
-/// seats from a twelfth of their diameter on.
-constexpr double traction_safety = 1.5;
 
 }  // namespace
 
@@ -136,8 +128,9 @@ double near_load_stress_Pa(const fem::BeamShaft& shaft, const BodyLoads& loads, 
   const auto errors_Pa = fem::near_load_error_Pa(shaft, loads.unit_loads, factors, z_m);
   const auto tractions = fem::seat_tractions(loads.unit_loads, factors, z_m);
   for (std::size_t c = 0; c < z_m.size(); ++c) {
-    const double with_tractions_Pa = std::hypot(largest_Pa[z_m[c]] + tractions[c].pressure_Pa,
-                                                traction_safety * std::sqrt(3.0) * tractions[c].shear_Pa);
+    const double with_tractions_Pa =
+        std::hypot(largest_Pa[z_m[c]] + tractions[c].pressure_Pa,
+                   fitted::traction_safety * std::sqrt(3.0) * tractions[c].shear_Pa);
     beyond_Pa = std::max(beyond_Pa, with_tractions_Pa + errors_Pa[c] - peak_Pa);
   }
   return beyond_Pa;
@@ -158,9 +151,9 @@ std::vector<ErrorEntry> beam_model_entries(const fem::BeamShaft& shaft, const Bo
       "tractions on seats; axial loads that enter, loads that bend, within a diameter, times 2.5",
       near_load_stress_Pa(shaft, loads, nodes, von_mises_Pa, excluded, peak_Pa));
   add("ovalisation", "bored seats as rings, twice as much at a fillet",
-      fillet_factor * ring_stress_Pa(shaft, loads));
+      fitted::fillet_of_oval_section * ring_stress_Pa(shaft, loads));
   add("spin", "segments as long cylinders that turn, times 1.25 for shoulders",
-      spin_at_shoulders * spin_stress_Pa(shaft, shaft.material, loads));
+      fitted::spin_at_shoulders * spin_stress_Pa(shaft, shaft.material, loads));
   return entries;
 }
 

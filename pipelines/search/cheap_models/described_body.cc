@@ -12,12 +12,10 @@
 #include "meshes/values/refused.h"
 #include "pipelines/judge/estimates/fineness.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
+#include "pipelines/search/cheap_models/fitted.h"
 
 namespace pipelines {
 namespace {
-
-/// Cells with polynomials of degree 2, those on the surface among them (unit test described_bodies).
-constexpr double unknowns_per_hexahedron = 27, unknowns_per_tetrahedron = 5;
 
 fem::MassProperties swept_masses(const meshes::SweptVolume& volume, double density_kg_m3) {
   fem::MassProperties masses;
@@ -93,15 +91,16 @@ std::size_t estimated_unknowns(const BodyScene& body) {
     return std::size_t(n_cells * each * std::pow(body.degree / 2.0, 3));
   };
   if (const auto* shaft = body.shaft())
-    return shaft->keyways.empty()
-               ? unknowns(meshes::estimated_cells(shaft->geometry, shaft->mesh), unknowns_per_hexahedron)
-               : unknowns(meshes::estimated_cells(shaft->geometry, shaft->solid), unknowns_per_tetrahedron);
+    return shaft->keyways.empty() ? unknowns(meshes::estimated_cells(shaft->geometry, shaft->mesh),
+                                             fitted::unknowns_per_hexahedron)
+                                  : unknowns(meshes::estimated_cells(shaft->geometry, shaft->solid),
+                                             fitted::unknowns_per_tetrahedron);
   return at_origin(body, [&] {
     if (const auto* chamber = std::get_if<ChamberShape>(&body.shape))
       return unknowns(double(meshes::describe_chamber(chamber->geometry, chamber->mesh).n_cells),
-                      unknowns_per_hexahedron);
+                      fitted::unknowns_per_hexahedron);
     return unknowns(meshes::outline_imported(std::get<meshes::Import>(body.shape)).n_cells,
-                    unknowns_per_tetrahedron);
+                    fitted::unknowns_per_tetrahedron);
   });
 }
 

@@ -68,7 +68,7 @@ Difference difference(const BodyLoads& a, const BodyLoads& b, const Responded& a
 }
 
 /// Stress at a point from loads that were not solved: each force at the worst port.
-MoreStress estimate(const Difference& change, const Judged& analysis) {
+MoreStress estimate(const Difference& change, const Responded& analysis) {
   return [&change, &analysis](const double* unit) {
     if (change.unsolved_N == 0 && change.unsolved_Nm == 0) return 0.0;
     double per_N = 0, per_Nm = 0;

@@ -29,7 +29,7 @@ std::vector<Load> loads_of(const LoadHistory& history, const std::string& effect
   for (const auto& resultant : history.resultants) {
     const Eigen::Array3Xd* values = effect.empty() ? &resultant.total : nullptr;
     for (const auto& part : resultant.contributions)
-      if (part.effect == effect) values = &part.load;
+      if (history.effects[part.effect] == effect) values = &part.load;
     if (values == nullptr) continue;
     loads.push_back({resultant.role + ".force", values->topRows<2>()});
     loads.push_back({resultant.role + ".torque", values->row(2)});

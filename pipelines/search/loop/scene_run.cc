@@ -41,7 +41,6 @@ public:
     if (is_search() && !options_.only &&
         (wanted_.size() > 1 || loaded_.scene.sampling.instants_per_turn != first_instants))
       agree_about_loads();
-    keep_harmonics_found();
     for (auto& judged : judged_) clock_.run("zones", [&] { add_zones(loaded_.scene.zones, judged); });
     for (auto& judged : judged_) judge_fatigue_of(judged);
     for (auto& judged : judged_) superpose_start(judged);
@@ -49,7 +48,7 @@ public:
     SceneRun result;
     result.loaded = std::move(loaded_);
     result.analyses = std::move(judged_);
-    result.kept_under = std::move(kept_under_);
+    result.kept = std::move(kept_);
     return result;
   }
 
@@ -83,7 +82,7 @@ private:
     const auto& body = as_read_.bodies[i];
     RunOfBody run;
     run.index = i;
-    run.options = {options_.directory / body.name, options_.n_threads, options_.fresh,
+    run.options = {options_.n_threads, options_.fresh || !options_.cache,
                    is_search() && is_refined_locally(body)};
     run.is_search = is_search();
     run.has_second_model = options_.second_model;
@@ -180,9 +179,9 @@ private:
 
   void finish(std::size_t i, Judged& judged) {
     auto& meshed = loaded_.meshed[i];
-    if (options_.keep && !is_without_mesh(methods_[i]))
-      kept_under_[judged.scene.name + '/' + kept_responses_name(Method::solid)] =
-          keep_responses(loaded_.scene.bodies[i], meshed, judged, run_of(i).options, clock_);
+    if (options_.cache && !is_without_mesh(methods_[i]))
+      kept_.keep(judged, key_of_responses(loaded_.scene.bodies[i], meshed, judged.loads, run_of(i).options),
+                 clock_);
     for (const auto& warning :
          add_frequencies(loaded_.scene, meshed, loaded_.loads, seconds_to_finish(), judged, clock_))
       warn(warning);
@@ -199,14 +198,6 @@ private:
       judged_[i] = model_of(methods_[i], run_of(i), loaded_)->again(judged_[i]);
       bound_dropped_effects(loaded_, i, judged_[i]);
     }
-  }
-
-  /// Once no other body may change their loads any more.
-  void keep_harmonics_found() {
-    for (std::size_t k = 0; options_.keep && k < judged_.size(); ++k)
-      if (judged_[k].method == Method::axisymmetric)
-        kept_under_[judged_[k].scene.name + '/' + kept_responses_name(Method::axisymmetric)] =
-            keep_harmonics(judged_[k], run_of(wanted_[k]).options, clock_);
   }
 
   /// Where the scene asks for it; operating blocks need it, however long it takes.
@@ -235,7 +226,7 @@ private:
   std::vector<Method> methods_;      ///< by body
   Loaded loaded_;
   std::vector<Judged> judged_;  ///< the wanted bodies
-  std::map<std::string, std::string> kept_under_;
+  KeptResponses kept_;
   std::vector<std::string> warnings_;
 };
 

@@ -2,23 +2,21 @@
 /// met.
 #pragma once
 
-#include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "pipelines/judge/analysis/judged.h"
 #include "pipelines/loads/stage/load_stage.h"
+#include "pipelines/respond/responses/respond.h"
 #include "pipelines/scene/values/requested_accuracy.h"
 
 namespace pipelines {
 
 struct SceneRunOptions {
-  std::filesystem::path directory;  ///< every body has a folder of its own in it
-  int n_threads = 0;                ///< 0: all cores
-  bool fresh = false;               ///< reuse nothing of an earlier run
-  bool keep = true;                 ///< unit responses, for the next run
+  int n_threads = 0;   ///< 0: all cores
+  bool fresh = false;  ///< reuse nothing of an earlier run
+  bool cache = true;   ///< unit responses of solids are taken from the user's cache, and kept there
   RequestedAccuracy accuracy{};
   bool duty = false;    ///< unit responses also for the channels of operating blocks, whose bodies are the
                         ///< scene's (require_blocks)
@@ -31,8 +29,7 @@ struct SceneRunOptions {
 struct SceneRun {
   Loaded loaded;                 ///< by the meshes, instants and harmonics that were chosen
   std::vector<Judged> analyses;  ///< in the order of Scene::bodies, or of the only body
-  /// Files of unit responses that were kept, as "body/file": hash of their key.
-  std::map<std::string, std::string> kept_under;
+  KeptResponses kept;            ///< unit responses of solids in the user's cache
 
   // In the .cc file: else every file that copies one compiles the copies of all members anew.
   SceneRun();
@@ -55,8 +52,7 @@ struct SceneRun {
 /// their start, on stresses that agree about the loads.
 /// With effects = "auto" those are dropped that matter little (effect_choice.h). Should their bound after the
 /// solve (effect_bounds.h) exceed the limit all the same, one comes back and the bodies are run again.
-/// Leaves mesh.msh and unit_responses.h5, or unit_harmonics.h5, in the bodies' folders. Needs an
-/// fem::Environment.
+/// Leaves unit responses of solids in the user's cache. Needs an fem::Environment.
 /// @throws as load_bodies and respond, before any earlier
 /// result is touched where the scene is wrong
 SceneRun run_scene(const Scene& scene, const SceneRunOptions& options, StageClock& clock);

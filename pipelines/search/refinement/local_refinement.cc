@@ -9,26 +9,15 @@
 #include "pipelines/base/names/name_lists.h"
 #include "pipelines/judge/analysis/exclusion_border.h"
 #include "pipelines/judge/estimates/error_budget.h"
+#include "pipelines/judge/estimates/fitted.h"
 #include "pipelines/judge/estimates/submodels.h"
 #include "pipelines/judge/stages/place_errors.h"
+#include "pipelines/search/cheap_models/fitted.h"
 #include "pipelines/superpose/envelope/superposition.h"
 
 namespace pipelines {
 namespace {
 
-/// Cells are cut by falling contribution to a goal until this share of the sum is reached (Doerfler 1996).
-/// With 0.6 the default chamber took five meshes to 5 %, with 0.8 four of about the same size, with 0.92 four
-/// of up to 409 k unknowns. Where less is enough to meet the tolerance, less is cut, but not below the second
-/// one: the steps would be too many.
-constexpr double most_that_is_cut = 0.8, least_that_is_cut = 0.4;
-/// What is aimed at, of the error that a place may have, on surfaces and at weld toes: with 0.5 there the
-/// default chamber took 270 k unknowns to 2 %, not 208 k. And what cells contribute less once they are cut,
-/// at least.
-constexpr double aim = 0.5, aim_at_toes = 0.75, gain_of_cutting = 0.75;
-/// The share of the sum of all contributions to a goal that counts as an error: on surfaces, where the sum
-/// was 2 to 5 times the true error of the default shaft, and at weld toes, whose two nodes make the dual
-/// stress steep and the sum 7 times and more of that of the default chamber.
-constexpr double share_on_surfaces = 0.5, share_at_toes = 0.25;
 /// Contributions that differ by less count as equal.
 constexpr double alike = 1e-3;
 /// The power of von Mises stress by which the nodes of a place count: high enough to follow its maximum,
@@ -38,10 +27,6 @@ constexpr double concentration = 11;
 constexpr double least_share = 0.5;
 /// Places by falling sum of stress and error: cutting cells for more of them costs more than it tells.
 constexpr std::size_t most_goals = 6;
-
-/// The order of a fillet's stress beside larger cells: 8 and 16 cells on one that held 152.2 MPa gave 146.9
-/// and 150.2.
-constexpr double order_of_halving = 1.5;
 
 /// Each mending makes the larger cells half as large; those of a search are at most so often cut.
 constexpr int most_mendings = 10;
@@ -65,7 +50,7 @@ struct Goal {
 
   /// The error, from the contributions of all cells.
   double error_Pa(const std::vector<double>& contributions_Pa) const {
-    return (is_toe ? share_at_toes : share_on_surfaces) *
+    return (is_toe ? fitted::share_at_toes : fitted::share_on_surfaces) *
            std::accumulate(contributions_Pa.begin(), contributions_Pa.end(), 0.0);
   }
 };
@@ -85,7 +70,7 @@ std::vector<double> factors_at(const Responded& analysis, std::int32_t instant) 
   return {column.begin(), column.end()};
 }
 
-Goal goal_at(const Superposed& analysis, const HotSpotStress& spot) {
+Goal goal_at(const Responded& analysis, const HotSpotStress& spot) {
   Goal goal{spot.name, {}, {factors_at(analysis, spot.instant), {}}, {}, true};
   const auto point = stress_point(spot);
   Stress stress{};
@@ -179,7 +164,7 @@ std::vector<const HotSpotStress*> coarse_toes(const Judged& analysis,
   std::vector<const HotSpotStress*> toes;
   for (const auto& place : judged)
     for (const auto& spot : analysis.hot_spots) {
-      if (spot.name != place.feature || spot.face_walls <= longest_face_walls || place.value_Pa == 0)
+      if (spot.name != place.feature || spot.face_walls <= fitted::longest_face_walls || place.value_Pa == 0)
         continue;
       const double most = 1 + place.error_Pa / place.value_Pa;
       const bool leads_range = analysis.scene.fatigue && most * range_Pa(spot) >= leading_range_Pa;
@@ -265,9 +250,10 @@ std::vector<std::size_t> nodes_at_border(const Superposed& analysis, const Place
 
 /// @param allowed_Pa  error that a goal may have in the end
 double part_to_cut(double error_Pa, double allowed_Pa, bool is_toe) {
-  if (!(error_Pa > 0)) return least_that_is_cut;
-  return std::clamp((1 - (is_toe ? aim_at_toes : aim) * allowed_Pa / error_Pa) / gain_of_cutting,
-                    least_that_is_cut, most_that_is_cut);
+  if (!(error_Pa > 0)) return fitted::least_that_is_cut;
+  return std::clamp(
+      (1 - (is_toe ? fitted::aim_at_toes : fitted::aim) * allowed_Pa / error_Pa) / fitted::gain_of_cutting,
+      fitted::least_that_is_cut, fitted::most_that_is_cut);
 }
 
 /// Marks the cells by falling contribution until they make up a part of the sum.
@@ -326,7 +312,8 @@ LocalRefinement cells_to_cut(const fem::Model& model, const Judged& analysis,
     for (const auto node : goals[g].nodes) is_place[node] = 1;
   }
   for (const auto* place : places_that_may_lead(judged))
-    if (analysis.scene.shaft() != nullptr && place->least_error_Pa > aim * (allowed_Pa - place->value_Pa) &&
+    if (analysis.scene.shaft() != nullptr &&
+        place->least_error_Pa > fitted::aim * (allowed_Pa - place->value_Pa) &&
         is_at_border(analysis.mesh, place->position_m))
       for (const auto node : nodes_at_border(analysis, *place)) is_place[node] = 1;
   for (const auto g : leading)
@@ -336,7 +323,7 @@ LocalRefinement cells_to_cut(const fem::Model& model, const Judged& analysis,
     for (const auto& part : toe->parts) {
       is_place[part.node] = 1;
       const double* x_m = &nodes.xyz_m[3 * part.node];
-      if (is_goal && toe->face_walls > 2 * longest_face_walls)
+      if (is_goal && toe->face_walls > 2 * fitted::longest_face_walls)
         result.again_at_m.push_back({x_m[0], x_m[1], x_m[2]});
     }
   }
@@ -352,7 +339,7 @@ LocalRefinement cells_to_cut(const fem::Model& model, const Judged& analysis,
   for (std::size_t c = 0; c < marked.size(); ++c)
     if (marked[c] != 0) result.cells.push_back(std::int32_t(c));
   for (const auto& place : judged)
-    if (const int cells = cells_on_quarter(analysis, place); 0 < cells && cells < cells_that_converge)
+    if (const int cells = cells_on_quarter(analysis, place); 0 < cells && cells < fitted::cells_that_converge)
       result.coarse.push_back(place.feature);
   return result;
 }
@@ -360,7 +347,7 @@ LocalRefinement cells_to_cut(const fem::Model& model, const Judged& analysis,
 std::optional<MeshStep> refine_locally(BodyScene& body, const LocalRefinement& local) {
   if (local.cells.empty()) return std::nullopt;
   body.refinements.push_back({local.cells, local.again_at_m});
-  return MeshStep{MeshPart::local, 2, order_of_halving, local.features, local.coarse};
+  return MeshStep{MeshPart::local, 2, fitted::order_of_halving, local.features, local.coarse};
 }
 
 MeshedBody mesh_refined(BodyScene& body, const std::function<MeshedBody()>& mesh) {

@@ -7,6 +7,7 @@
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
 #include "pipelines/search/cheap_models/axisymmetric_refinement.h"
 #include "pipelines/search/cheap_models/cheap_responses.h"
+#include "pipelines/search/cheap_models/fitted.h"
 
 namespace pipelines {
 namespace {
@@ -15,9 +16,6 @@ namespace {
 constexpr double share_of_tolerance = 0.1, best_accuracy = 2e-3, worst_accuracy = 1e-2;
 /// Reached by the first section, whatever it is.
 constexpr double any_accuracy = 10;
-/// The first section's stresses were within 2.3 % of the last one's on 30 shafts drawn at random, wherever
-/// they were at least half of the largest.
-constexpr double error_of_guide = 0.05;
 
 }  // namespace
 
@@ -37,7 +35,7 @@ std::optional<SecondModel> axisymmetric_second_model(const BodyScene& solid, con
   result.torsion = stresses.torsion;
   result.torsion.error_Pa += result.model_error * result.torsion.value_Pa;
   if (is_guide)
-    for (auto& place : result.places) place.error_Pa = error_of_guide * place.value_Pa;
+    for (auto& place : result.places) place.error_Pa = fitted::error_of_guide * place.value_Pa;
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "pipelines/judge/estimates/fineness.h"
 #include "pipelines/judge/estimates/tetrahedra_estimate.h"
+#include "pipelines/search/cheap_models/fitted.h"
 
 namespace pipelines {
 namespace {
@@ -15,11 +16,6 @@ constexpr double shrinkage = 0.6, radius_cells = 1.5;
 constexpr double spacing = 0.5;
 /// A place that knows less than this of its stress does not make the whole body fine at once.
 constexpr double largest_relative_error = 0.2;
-
-/// CPU seconds of runs on one thread, their meshing left out (AMD EPYC of 2023, 2026-11-26): blocks with a
-/// hole of 45 k and 79 k unknowns 2.3 and 4 s, plates with 40 holes of 197 k, 352 k and 747 k 14, 28 and 85
-/// s, a shaft with a small fillet of 303 k 25 s.
-constexpr double s_per_dof = 4e-5, s_per_dof_of_factor = 8.5e-8;
 
 /// Mean edge of the cells around each node; 0 where there is none.
 std::vector<double> cell_sizes_m(const fem::Nodes& nodes) {
@@ -99,7 +95,7 @@ std::vector<std::size_t> leading_nodes(const Superposed& analysis, const std::ve
 }  // namespace
 
 double seconds_of_tetrahedra(double n_dofs) {
-  return s_per_dof * n_dofs + s_per_dof_of_factor * std::pow(n_dofs, growth_of_seconds);
+  return fitted::s_per_dof * n_dofs + fitted::s_per_dof_of_factor * std::pow(n_dofs, growth_of_seconds);
 }
 
 LeadingSurface leading_surface(const Superposed& analysis, const std::vector<PlaceStress>& judged) {

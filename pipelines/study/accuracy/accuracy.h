@@ -83,7 +83,6 @@ struct AccuracyStudy {
 void compare_runs(AccuracyStudy& study, double known_Pa);
 
 struct AccuracyOptions {
-  std::filesystem::path directory;  ///< directory of the body's scratch files
   int n_threads = 0;
   double time_limit_s = 120;      ///< limit of the study of one body; what does not end in time is left out
   double tolerance = 0;           ///< 0: the scene's, or 5 %

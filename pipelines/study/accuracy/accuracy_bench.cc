@@ -25,11 +25,6 @@ AccuracyBench::AccuracyBench(const Scene& scene, std::size_t body, const Accurac
   scene_.method = Method::solid;
 }
 
-AccuracyBench::~AccuracyBench() {
-  std::error_code ignored;
-  std::filesystem::remove_all(scratch(), ignored);
-}
-
 double AccuracyBench::tolerance() const {
   if (options_.tolerance > 0) return options_.tolerance;
   return scene_.accuracy.tolerance > 0 ? scene_.accuracy.tolerance : bench_tolerance;
@@ -41,10 +36,8 @@ double AccuracyBench::elapsed_s() const {
 
 SceneRunOptions AccuracyBench::run_options() const {
   SceneRunOptions options;
-  options.directory = scratch();
   options.n_threads = options_.n_threads;
-  options.fresh = true;
-  options.keep = false;
+  options.cache = false;
   options.fatigue = false;
   options.only = body_;
   options.others = meshed_;

@@ -26,9 +26,8 @@ struct SolidRun {
 
 class AccuracyBench {
 public:
-  /// Meshes all bodies of the scene. What its runs write goes with this object.
+  /// Meshes all bodies of the scene.
   AccuracyBench(const Scene& scene, std::size_t body, const AccuracyOptions& options, StageClock& clock);
-  ~AccuracyBench();
   AccuracyBench(const AccuracyBench&) = delete;
   AccuracyBench& operator=(const AccuracyBench&) = delete;
 
@@ -46,7 +45,7 @@ public:
   double elapsed_s() const;
   double seconds_left() const { return options_.time_limit_s - elapsed_s(); }
 
-  SceneRunOptions run_options() const;  ///< options of this body alone, nothing kept
+  SceneRunOptions run_options() const;  ///< options of this body alone, without the cache
 
   /// Runs the work as one stage of the study; its own stages go into its row.
   template <typename Work>
@@ -101,7 +100,6 @@ public:
   const std::vector<LeftOutModel>& left_out() const { return left_out_; }
 
 private:
-  std::filesystem::path scratch() const { return options_.directory / "models"; }
   static void take_mean(AccuracyRow& row, const std::vector<double>& seconds);
 
   Scene scene_;

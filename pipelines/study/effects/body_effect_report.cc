@@ -8,7 +8,7 @@
 
 #include "pipelines/base/fields/field_outputs.h"
 #include "pipelines/scene/whole/body_effects.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 #include "pipelines/search/effect_choice/effect_choice.h"
 
 namespace pipelines {
@@ -53,7 +53,7 @@ struct PortForces {
 PortForces forces_on(const Scene& scene, const BodyScene& body, const std::string& port,
                      const std::string& effect = "") {
   PortForces sum;
-  for (const auto& force : kind_of(body).given_forces(body))
+  for (const auto& force : reader_of(body).given_forces(body))
     if (force.port == port && scene.has_effect(force.effect) && (effect.empty() || force.effect == effect))
       sum.add(force);
   return sum;
@@ -77,7 +77,7 @@ std::vector<LoadShare> shares_on(const Scene& scene, const BodyScene& body, cons
 
 void add_forces(const Scene& scene, const BodyScene& body, BodyEffect& effect) {
   std::vector<std::string> ports;
-  for (const auto& force : kind_of(body).given_forces(body)) {
+  for (const auto& force : reader_of(body).given_forces(body)) {
     if (force.effect != effect.effect.name) continue;
     for (const auto& text : texts_of(force)) effect.forces.push_back(text);
     if (std::find(ports.begin(), ports.end(), force.port) == ports.end()) ports.push_back(force.port);

@@ -115,6 +115,7 @@ public:
 
   bool has_chosen_effects() const { return has_chosen_effects_; }
   std::size_t n_improved_meshes() const { return bodies_.n_improved_meshes(); }
+  const std::vector<std::string>& cache_faults() const { return bodies_.cache_faults(); }
 
   SweepForecast forecast() const {
     SweepForecast result;
@@ -290,6 +291,10 @@ SweepForecast SweepRun::forecast() const {
 
 std::size_t SweepRun::n_improved_meshes() const {
   return implementation_->n_improved_meshes();
+}
+
+const std::vector<std::string>& SweepRun::cache_faults() const {
+  return implementation_->cache_faults();
 }
 
 bool SweepRun::has_chosen_effects() const {

@@ -39,6 +39,8 @@ public:
   void keep_points(const std::vector<char>& is_own);
   /// Meshes that run() has searched beside those of the forecast, for points known less well.
   std::size_t n_improved_meshes() const;
+  /// Sentences for the user: which unit responses run() could not leave in the cache, and why.
+  const std::vector<std::string>& cache_faults() const;
   /// Effects that the program would choose (effects = "auto") are all on in a sweep.
   bool has_chosen_effects() const;
 

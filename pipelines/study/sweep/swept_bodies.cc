@@ -174,7 +174,7 @@ void SweptBodies::solve_for(std::size_t p, StageClock& clock) {
     on_mesh.push_back(searched_design(b, solution_of(p, b).shape));
   const auto n_unknown = std::count(on_mesh.begin(), on_mesh.end(), nullptr);
   if (n_unknown > 1 || n_unknown == std::ptrdiff_t(bodies_.size())) {
-    auto run = run_scene(as_read, run_options(std::to_string(++n_folders_)), clock);
+    auto run = run_scene(as_read, run_options(), clock);
     for (std::size_t b = 0; b < bodies_.size(); ++b)
       if (on_mesh[b] == nullptr) on_mesh[b] = keep_design(p, b, as_read, run, nullptr);
   }
@@ -199,6 +199,7 @@ void SweptBodies::solve_for(std::size_t p, StageClock& clock) {
 /// @param searched  on whose mesh it is; null: on its own
 const BodyDesign* SweptBodies::keep_design(std::size_t p, std::size_t b, const Scene& before, SceneRun& run,
                                            const BodyDesign* searched) {
+  for (auto& fault : run.kept.faults) cache_faults_.push_back(std::move(fault));
   auto design = std::make_shared<BodyDesign>(before, run, b, names_[p]);
   if (searched != nullptr) design->take_shares(*searched);
   solution_of(p, b).designs.push_back(design);
@@ -207,17 +208,14 @@ const BodyDesign* SweptBodies::keep_design(std::size_t p, std::size_t b, const S
 
 /// Body b alone is run.
 SceneRunOptions SweptBodies::options_beside(const std::vector<const BodyDesign*>& others, std::size_t b) {
-  auto options = run_options(std::to_string(++n_folders_));
+  auto options = run_options();
   options.only = b;
   for (const auto* other : others) options.others.push_back(other ? other->meshed() : MeshedBody());
   return options;
 }
 
-SceneRunOptions SweptBodies::run_options(const std::string& folder) const {
+SceneRunOptions SweptBodies::run_options() const {
   SceneRunOptions options;
-  options.directory = options_.directory / "bodies";
-  if (options_.rank > 0) options.directory /= "rank_" + std::to_string(options_.rank);
-  options.directory /= folder;
   options.n_threads = options_.n_threads;
   options.fresh = options_.fresh;
   options.accuracy = options_.accuracy;
@@ -285,9 +283,9 @@ bool SweptBodies::body_row(std::size_t p, SweepRow& row, Scratch& scratch) {
 /// A body by its cheap model, which is solved for each point.
 void SweptBodies::add_cheap(SweepRow& row, Scene scene, std::size_t b, const Loaded& loaded, Method method) {
   const std::lock_guard lock(cheap_);
-  auto options = run_options("cheap");
+  auto options = run_options();
   options.only = b;
-  options.keep = false;
+  options.cache = false;
   options.others = loaded.meshed;
   scene.method = method;
   StageClock silent;

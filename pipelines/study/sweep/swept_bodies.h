@@ -29,6 +29,8 @@ public:
   std::vector<SweepForecast::Body> forecast() const;
   /// Meshes that improve() has searched.
   std::size_t n_improved_meshes() const { return n_improved_; }
+  /// Sentences for the user: what is not in the cache, and why.
+  const std::vector<std::string>& cache_faults() const { return cache_faults_; }
   /// Number of a point's mesh by body. Empty if the point was not sorted in.
   std::vector<std::size_t> meshes(std::size_t p) const;
   /// Leaves a point as if it had not been sorted in.
@@ -77,7 +79,7 @@ private:
                                 const BodyDesign* searched);
   bool needs_solution(std::size_t p, std::size_t b, const std::vector<const BodyDesign*>& on_mesh,
                       const Scene& scene, StageClock& clock);
-  SceneRunOptions run_options(const std::string& folder) const;
+  SceneRunOptions run_options() const;
   SceneRunOptions options_beside(const std::vector<const BodyDesign*>& others, std::size_t b);
   bool body_row(std::size_t p, SweepRow& row, Scratch& scratch);
   SweepRow row_once_solved(std::size_t p, StageClock& clock);
@@ -92,8 +94,8 @@ private:
   std::vector<SweptBody> bodies_;
   std::map<std::vector<std::size_t>, std::string> refused_;  ///< by combination: why; empty: not
   std::size_t n_improved_ = 0;
-  int n_folders_ = 0;  ///< folders of this rank
-  std::mutex cheap_;   ///< cheap models run one at a time: fem's threads are theirs
+  std::vector<std::string> cache_faults_;
+  std::mutex cheap_;  ///< cheap models run one at a time: fem's threads are theirs
 };
 
 }  // namespace pipelines

@@ -132,7 +132,7 @@ void search_places(std::vector<PlaceSearch>& searches, const ArrayXd& reach, Wal
 
 }  // namespace
 
-LeadingStress::LeadingStress(const Judged& known)
+LeadingStress::LeadingStress(const Superposed& known)
     : channels_(known.loads.history.values),
       known_Pa_(Eigen::Map<const ArrayXd>(known.envelope.von_mises.value_Pa.data(),
                                           Index(known.envelope.von_mises.value_Pa.size()))),

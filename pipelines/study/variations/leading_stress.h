@@ -14,14 +14,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "pipelines/judge/analysis/judged.h"
+#include "pipelines/superpose/envelope/superposed.h"
 
 namespace pipelines {
 
 class LeadingStress {
 public:
   /// @param known  with the whole envelope
-  explicit LeadingStress(const Judged& known);
+  explicit LeadingStress(const Superposed& known);
 
   /// Takes for each feature the node with the largest von Mises stress outside the exclusion distances, and
   /// for the inside where it is at least nine tenths of that (place_stress.h), as a whole envelope has them,

@@ -15,8 +15,6 @@ struct SweepOptions {
   std::filesystem::path scene;
   TomlNode tree;                      ///< tree of the scene
   std::vector<std::string> settings;  ///< settings of all points: --set
-  std::filesystem::path directory;    ///< meshes and unit responses go into its folder bodies
-  int rank = 0;                       ///< rank of MPI: each has subfolders of its own there
   int n_threads = 0;                  ///< 0: all cores
   bool loads_only = false;
   bool fresh = false;

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "pipelines/scene/whole/body_kind.h"
 #include "pipelines/superpose/envelope/finite_stress.h"
 
 namespace pipelines {
@@ -17,14 +16,6 @@ std::vector<std::string> walls_under_charge(const Responded& responded) {
 }
 
 }  // namespace
-
-Superposed::Superposed() = default;
-Superposed::Superposed(Responded responded) : Responded(std::move(responded)) {}
-Superposed::Superposed(const Superposed&) = default;
-Superposed::Superposed(Superposed&&) noexcept = default;
-Superposed& Superposed::operator=(const Superposed&) = default;
-Superposed& Superposed::operator=(Superposed&&) noexcept = default;
-Superposed::~Superposed() = default;
 
 Superposed superpose(Responded responded, int n_threads, StageClock& clock, std::optional<Envelope> known) {
   Superposed result(std::move(responded));

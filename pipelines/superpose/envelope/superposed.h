@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "pipelines/base/common/stage_clock.h"
 #include "pipelines/loads/channels/closure.h"
@@ -16,14 +17,8 @@ struct Superposed : Responded {
   NodePlaces places;
   Envelope envelope;
 
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
-  Superposed();
-  explicit Superposed(Responded responded);
-  Superposed(const Superposed&);
-  Superposed(Superposed&&) noexcept;
-  Superposed& operator=(const Superposed&);
-  Superposed& operator=(Superposed&&) noexcept;
-  ~Superposed();
+  Superposed() = default;
+  explicit Superposed(Responded responded) : Responded(std::move(responded)) {}
 };
 
 /// @param known  the envelope of these loads and responses, where it need not be computed again

@@ -13,20 +13,12 @@
 namespace pipelines {
 namespace {
 
-constexpr const char* style = R"(
-body { font: 15px/1.45 sans-serif; color: #222; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; }
-h1 { font-size: 1.6rem; margin-bottom: .2rem; } h2 { border-bottom: 1px solid #bbb; margin-top: 2.2rem; }
-table { border-collapse: collapse; margin: .6rem 0 1.2rem; }
-th, td { padding: .2rem .8rem .2rem 0; text-align: left; vertical-align: top; } th { border-bottom: 1px solid #888; }
-tr:nth-child(even) td { background: #f5f5f5; } .number { text-align: right; font-variant-numeric: tabular-nums; }
-.warning { background: #fff3d6; border-left: 4px solid #d69e00; padding: .4rem .8rem; }
-.verdict { font-size: 1.2rem; font-weight: bold; padding: .4rem .8rem; }
-.ok { background: #dff2df; border-left: 6px solid #2c8a2c; } .not-ok { background: #fbdcdc; border-left: 6px solid #c02020; }
-.not-judged { background: #fff3d6; border-left: 6px solid #d69e00; } summary { cursor: pointer; }
-pre { overflow-x: auto; background: #f5f5f5; padding: .6rem; font-size: 12px; line-height: 1.35; }
-@media print { body { font-size: 11px; } h1 { font-size: 1.3rem; } .verdict { font-size: 1rem; } }
-img { max-width: 100%; } figure { margin: 1rem 0; } figcaption { color: #555; }
-)";
+/// Nothing is loaded and nothing is sent, whatever a scene's texts hold.
+constexpr const char* policy =
+    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; "
+    "style-src 'unsafe-inline'; img-src data: blob:\">\n"
+    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+    "<link rel=\"icon\" href=\"data:,\">";
 
 /// "8 h of 20000 h" is a text.
 bool is_number(const std::string& cell) {
@@ -86,12 +78,12 @@ void HtmlPage::preformatted(const std::string& text) {
 void HtmlPage::table(const ShownRows& table) {
   const auto& [titles, rows] = table;
   if (rows.empty()) return;
-  body_ += "<table>\n<tr>";
+  body_ += "<table>\n<thead><tr>";  // which every printed page repeats
   for (std::size_t i = 0; i < titles.size(); ++i)
     body_ +=
         fmt::format("<th{}>{}</th>", i < rows[0].size() && is_number(rows[0][i]) ? " class=\"number\"" : "",
                     shown(titles[i]));
-  body_ += "</tr>\n";
+  body_ += "</tr></thead>\n<tbody>\n";
   for (const auto& row : rows) {
     if (row.empty()) continue;
     body_ += "<tr>";
@@ -99,22 +91,25 @@ void HtmlPage::table(const ShownRows& table) {
       body_ += fmt::format("<td{}>{}</td>", is_number(cell) ? " class=\"number\"" : "", shown(cell));
     body_ += "</tr>\n";
   }
-  body_ += "</table>\n";
+  body_ += "</tbody>\n</table>\n";
 }
 
 void HtmlPage::picture(const std::filesystem::path& png, const std::string& what_it_shows) {
   const auto bytes = whole_file(png);
   if (!bytes) return;
   body_ += fmt::format(
-      "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+      "<figure><img alt=\"{0}\" "
+      "src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
       shown(what_it_shows), base64(*bytes));
 }
 
 std::string HtmlPage::text() const {
+  const auto script = script_.empty() ? "" : "<script>\n" + script_ + "</script>\n";
   return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{}</title>\n<style>{}"
-      "</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-      escaped(title_), style, body_);
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta "
+      "charset=\"utf-8\">\n<title>{}</title>\n{}\n<style>\n{}"
+      "</style>\n</head>\n<body>\n{}{}</body>\n</html>\n",
+      escaped(title_), policy, style_, body_, script);
 }
 
 }  // namespace pipelines

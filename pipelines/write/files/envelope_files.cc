@@ -123,6 +123,14 @@ FieldData governing_data(const Judged& analysis) {
   return data;
 }
 
+/// Shares to 1e-5: with all digits they would be a third of the file.
+std::vector<double> shown_shares(const std::vector<float>& shares) {
+  constexpr double step = 1.0 / 65536;
+  std::vector<double> shown;
+  for (const double share : shares) shown.push_back(std::round(share / step) * step);
+  return shown;
+}
+
 void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
                     const Judged& analysis, int n_pieces) {
   const auto& nodes = analysis.responses.nodes;
@@ -150,8 +158,7 @@ void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHi
   fields.add_result("drive angle of largest principal stress [deg]", angles(envelope.principal.instant));
   fields.add_result("stress at largest principal stress [Pa]", flatten(envelope.principal.stress_Pa), 6,
                     names_of_components);
-  fields.add_result("effect share", {envelope.effect_share.begin(), envelope.effect_share.end()},
-                    int(effects.size()), effects);
+  fields.add_result("effect share", shown_shares(envelope.effect_share), int(effects.size()), effects);
   if (auto beyond_m = beyond_left_out_m(nodes, analysis.places, analysis.mesh.sharp_edges); !beyond_m.empty())
     fields.add(beyond_field, std::move(beyond_m));
   if (analysis.fatigue) add_fatigue(fields, analysis);

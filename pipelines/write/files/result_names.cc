@@ -18,7 +18,7 @@ const std::string page_name = "report.html", torsion_folder = "torsion";
 /// A result in a body's folder.
 bool is_body_file(const std::string& name) {
   static const std::regex given(
-      R"(mesh\.msh|(zones|zone_tree|hot_spots|fatigue|weld_fatigue|diagrams|torsion|torsion_cycle|element_torques|start_up)\.csv|)"
+      R"(mesh\.msh|unit_responses\.h5|(zones|zone_tree|hot_spots|fatigue|weld_fatigue|diagrams|torsion|torsion_cycle|element_torques|start_up)\.csv|)"
       R"(envelope(\.vtu|\.pvtu|\.png|_\d+\.vtu)|cycle\.pvd|cycle_\d+\.vtu)");
   return std::regex_match(name, given);
 }
@@ -46,11 +46,12 @@ OutputNames names_like(const std::string& form) {
 }
 
 OutputNames run_names(std::vector<std::string> bodies) {
-  return {
-      [](const std::string& name) { return name == page_name || is_run_result(name) || is_kept_file(name); },
-      [bodies = std::move(bodies)](const std::string& folder) {
-        return folder == torsion_folder || contains(bodies, folder);
-      }};
+  return {[](const std::string& name) {
+            return name == page_name || is_run_result(name) || is_responses_file(name);
+          },
+          [bodies = std::move(bodies)](const std::string& folder) {
+            return folder == torsion_folder || contains(bodies, folder);
+          }};
 }
 
 bool is_run_result(const std::string& name) {
@@ -61,12 +62,12 @@ bool is_run_result(const std::string& name) {
   return folder.find('/') == std::string::npos && is_body_file(file);
 }
 
-bool is_kept_file(const std::string& name) {
+bool is_responses_file(const std::string& name) {
   const auto [folder, file] = folder_and_file(name);
-  return !folder.empty() && contains(kept_file_names(), file);
+  return !folder.empty() && contains(responses_file_names(), file);
 }
 
-const std::vector<std::string>& kept_file_names() {
+const std::vector<std::string>& responses_file_names() {
   static const std::vector<std::string> names{"unit_responses.h5", "unit_harmonics.h5"};
   return names;
 }

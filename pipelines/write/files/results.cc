@@ -1,11 +1,8 @@
 #include "pipelines/write/files/results.h"
 
-#include <future>
-
 #include "meshes/gmsh/msh_writer.h"
 #include "pipelines/base/common/several_ranks.h"
 #include "pipelines/base/files/atomic_file.h"
-#include "pipelines/loads/channels/load_files.h"
 #include "pipelines/write/fields/zone_fields.h"
 #include "pipelines/write/files/envelope_files.h"
 #include "pipelines/write/parts/fatigue_report.h"
@@ -36,15 +33,6 @@ std::vector<ZonePart> zone_tree(const Zones& zones) {
 }
 
 }  // namespace
-
-void write_load_results(const path& directory, const kinetics::LoadHistory& loads, const BodyChannels& bodies,
-                        int n_threads) {
-  const auto policy = n_threads > 1 ? std::launch::async : std::launch::deferred;
-  auto csv =
-      std::async(policy, [&] { write_loads_csv(directory / "loads.csv", loads, bodies, n_threads - 1); });
-  write_loads_h5(directory / "loads.h5", loads, bodies);
-  csv.get();
-}
 
 void write_mesh(const path& file, const meshes::BodyMesh& mesh) {
   AtomicFile target(file);

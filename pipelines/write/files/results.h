@@ -7,15 +7,9 @@
 
 #include "kinetics/values/load_history.h"
 #include "pipelines/judge/analysis/judged.h"
-#include "pipelines/loads/channels/load_files.h"
 #include "pipelines/scene/whole/scene.h"
 
 namespace pipelines {
-
-/// loads.h5 and loads.csv, with the channels of the bodies.
-/// @param n_threads  here and below: that format and compress; the bytes are the same for any number
-void write_load_results(const std::filesystem::path& directory, const kinetics::LoadHistory& loads,
-                        const BodyChannels& bodies, int n_threads = 1);
 
 /// Makes the file of a mesh with its groups (.msh 4.1).
 /// @throws FileError if the disk does not take it, meshes::MeshRefused if gmsh cannot open it
@@ -27,6 +21,7 @@ void write_mesh(const std::filesystem::path& file, const meshes::BodyMesh& mesh)
 /// (shaft_torsion_report.h).
 /// @param n_pieces  pieces of the envelope, one for each MPI rank: with several of them envelope.pvtu and
 ///                  envelope_<rank>.vtu stand for envelope.vtu
+/// @param n_threads  that format and compress; the bytes are the same for any number
 void write_body_results(const std::filesystem::path& directory, const Scene& scene,
                         const kinetics::LoadHistory& loads, const Judged& analysis, int n_pieces = 1,
                         int n_threads = 1);

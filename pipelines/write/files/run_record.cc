@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "pipelines/base/common/errors.h"
+#include "pipelines/base/disk/cache.h"
 #include "pipelines/base/disk/staging.h"
 #include "pipelines/base/files/atomic_file.h"
 #include "pipelines/base/files/content_hash.h"
@@ -48,32 +50,27 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// @return a record without a key if the file is none
-RunRecord read_run_record(const fs::path& file) {
-  RunRecord record;
-  const auto json = read_json_file(file);
+/// What the cache has under the hash of a key.
+KeptFile in_cache(const std::string& key_hash) {
   try {
-    record.warnings = json.at("warnings").get<std::vector<std::string>>();
-    record.kept_under = json.at("kept_under").get<std::map<std::string, std::string>>();
-    for (const auto& line : json.at("table")) record.table += line.get<std::string>() + '\n';
-    for (const auto& line : json.at("full_table")) record.full_table += line.get<std::string>() + '\n';
-    record.key = json.at("key").get<std::string>();
-  } catch (const RecordJson::exception&) {
-    return {};
+    return check_kept_file_of(cached_file(key_hash), key_hash);
+  } catch (const FileError&) {  // there is no cache
+    return KeptFile::missing;
   }
-  return record;
 }
 
-bool is_whole_or_gone(const fs::path& kept, const std::string& key_hash) {
-  const auto state = check_kept_file_of(kept, key_hash);
-  return state == KeptFile::whole || state == KeptFile::missing;
+bool are_responses_whole(const FileList& files, const RunRecord& record, bool needed) {
+  return std::all_of(record.responses.begin(), record.responses.end(), [&](const auto& of_body) {
+    const auto state = in_cache(of_body.second);
+    const bool is_beside = files.count(of_body.first + '/' + responses_file_names().front()) > 0;
+    return state == KeptFile::whole || (state == KeptFile::missing && (!needed || is_beside));
+  });
 }
 
-/// What the manifest does not list: the page, which anybody may make anew, and what is kept for later runs.
-bool is_rest_whole(const fs::path& directory, const RunRecord& record) {
-  for (const auto& [file, key_hash] : record.kept_under)
-    if (!is_whole_or_gone(directory / file, key_hash)) return false;
-  return text_of_file(directory / "report.html") == html_report(directory, directory / "accuracy");
+/// Anybody may make the page anew from the results beside it.
+bool is_page_whole(const fs::path& directory, const RunRecord& record) {
+  return record.is_report_alone ||
+         text_of_file(directory / "report.html") == html_report(directory, directory / "accuracy");
 }
 
 }  // namespace
@@ -97,23 +94,45 @@ std::string run_key(const Scene& scene, const RequestedAccuracy& accuracy, int n
 }
 
 void write_run_record(const fs::path& folder, const RunRecord& record) {
-  if (record.key.empty()) return;
-  const RecordJson json{{"key", record.key},
-                        {"kept_under", record.kept_under},
-                        {"warnings", record.warnings},
-                        {"table", lines_of(record.table)},
-                        {"full_table", lines_of(record.full_table)}};
+  const auto text_of = [](const RunRecord& content) {
+    const RecordJson json{{"key", content.key},
+                          {"responses", content.responses},
+                          {"report_alone", content.is_report_alone},
+                          {"warnings", content.warnings},
+                          {"table", lines_of(content.table)},
+                          {"full_table", lines_of(content.full_table)}};
+    return json.dump(1) + "\n";
+  };
+  RunRecord of_responses;
+  of_responses.responses = record.responses;
+  of_responses.is_report_alone = record.is_report_alone;
   std::string text;
   try {
-    text = json.dump(1) + "\n";
+    text = text_of(record.key.empty() ? of_responses : record);
   } catch (const RecordJson::exception&) {  // some text is not UTF-8, and would come back changed
-    return;
+    text = text_of(of_responses);
   }
   write_text_file(folder / run_record_name, text);
 }
 
+RunRecord read_run_record(const fs::path& file) {
+  RunRecord record;
+  const auto json = read_json_file(file);
+  try {
+    record.warnings = json.at("warnings").get<std::vector<std::string>>();
+    record.responses = json.at("responses").get<std::map<std::string, std::string>>();
+    record.is_report_alone = json.at("report_alone").get<bool>();
+    for (const auto& line : json.at("table")) record.table += line.get<std::string>() + '\n';
+    for (const auto& line : json.at("full_table")) record.full_table += line.get<std::string>() + '\n';
+    record.key = json.at("key").get<std::string>();
+  } catch (const RecordJson::exception&) {
+    return {};
+  }
+  return record;
+}
+
 std::optional<EarlierRun> earlier_run(const fs::path& directory, const std::vector<std::string>& bodies,
-                                      const std::string& key) {
+                                      const std::string& key, bool with_responses) {
   if (key.empty()) return std::nullopt;
   finish_exchange(directory);
   const auto opened = OpenDirectory::existing(directory);
@@ -129,7 +148,10 @@ std::optional<EarlierRun> earlier_run(const fs::path& directory, const std::vect
       !contains(check.files, run_record_name) || !contains(check.files, "summary.json"))
     return std::nullopt;
   require_own_outputs(*opened, run_names(bodies));
-  if (!is_rest_whole(directory, earlier.record)) return std::nullopt;
+  const auto files = read_manifest(*opened).value_or(FileList());
+  if (!are_responses_whole(files, earlier.record, with_responses) ||
+      !is_page_whole(directory, earlier.record))
+    return std::nullopt;
   earlier.summary = text_of_file(directory / "summary.json");
   return earlier;
 }

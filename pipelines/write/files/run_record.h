@@ -26,17 +26,21 @@ std::string run_key(const Scene& scene, const RequestedAccuracy& accuracy, int n
                     const std::vector<NotedInput>& inputs);
 
 struct RunRecord {
-  std::string key;                                ///< run_key
-  std::map<std::string, std::string> kept_under;  ///< SceneRun::kept_under
-  std::vector<std::string> warnings;              ///< lines on stderr that belong to the results
-  std::string table{};                            ///< as printed, ended by a line feed
-  std::string full_table{};                       ///< as printed with -v, likewise
+  std::string key;                               ///< run_key; empty: never the same as a later run
+  std::map<std::string, std::string> responses;  ///< by body the hash of the key of its unit responses
+  std::vector<std::string> warnings;             ///< lines on stderr that belong to the results
+  std::string table{};                           ///< as printed, ended by a line feed
+  std::string full_table{};                      ///< as printed with -v, likewise
+  bool is_report_alone = false;                  ///< of the results only summary.json and the page were kept
 };
 
-/// Leaves the record among results that wait for their places. None where the record would say less than the
-/// run: without a key, or with text that is not UTF-8.
+/// Leaves the record among results that wait for their places; of text that is not UTF-8 only which unit
+/// responses are the run's.
 /// @throws FileError if it cannot be written
 void write_run_record(const std::filesystem::path& folder, const RunRecord& record);
+
+/// @return an empty one if the file is none
+RunRecord read_run_record(const std::filesystem::path& file);
 
 /// A run whose results are in their places, whole.
 struct EarlierRun {
@@ -45,12 +49,14 @@ struct EarlierRun {
 };
 
 /// Reads all results to find out that they are as the run wrote them: those in the manifest, report.html, and
-/// what is kept for later runs, which may also be gone. Finishes what a killed run has left; writes nothing
-/// otherwise.
+/// unit responses in the user's cache, which may also be gone. Finishes what a killed run has left; writes
+/// nothing otherwise.
 /// @param bodies  names of the folders that the run writes
+/// @param with_responses  unit responses are needed, too: none may be gone
 /// @return empty unless the directory has the whole results of a run with this key
 /// @throws OptionError if something in the directory must not be replaced by a run (result_names.h)
 std::optional<EarlierRun> earlier_run(const std::filesystem::path& directory,
-                                      const std::vector<std::string>& bodies, const std::string& key);
+                                      const std::vector<std::string>& bodies, const std::string& key,
+                                      bool with_responses = false);
 
 }  // namespace pipelines

@@ -11,6 +11,7 @@
 #include "pipelines/base/files/kept_file.h"
 #include "pipelines/base/files/replaceable.h"
 #include "pipelines/write/files/manifest.h"
+#include "pipelines/write/files/run_record.h"
 #include "pipelines/write/report/html_report.h"
 
 namespace pipelines {
@@ -45,7 +46,7 @@ std::string why_foreign(const OpenDirectory& directory, const std::string& name,
   if (auto why = why_not_replaceable(file); !why.empty()) return why;
   if (name == manifest_name)
     return read_manifest(directory) ? "" : "is there already, and is damaged or none of this program";
-  if (is_kept_file(name) && is_own_kept_file(file)) return "";
+  if (is_responses_file(name) && is_own_kept_file(file)) return "";
   for (const auto* list : lists) {
     const auto listed = list->find(name);
     if (listed != list->end() && is_as_listed(directory, name, listed->second)) return "";
@@ -106,16 +107,15 @@ std::set<std::string> folders_with_results(const FileList& list) {
 /// Removes what earlier commands have left and the new list does not have, so that the directory shows one
 /// run.
 void remove_earlier(const OpenDirectory& directory, const FileList& earlier, const FileList& results) {
-  const auto stay = folders_with_results(results);
   for (const auto& [name, listed] : earlier) {
     if (results.count(name) > 0 || !is_as_listed(directory, name, listed)) continue;
     directory.remove(name);
     directory.remove_if_empty(fs::path(name).parent_path());
   }
   for (const auto& folder : folders_with_results(earlier)) {
-    if (stay.count(folder) > 0) continue;
-    for (const auto& kept : kept_file_names())
-      if (const auto name = folder + '/' + kept; why_foreign(directory, name, {}).empty())
+    for (const auto& file : responses_file_names())
+      if (const auto name = folder + '/' + file;
+          results.count(name) == 0 && why_foreign(directory, name, {}).empty())
         directory.remove(name);
     directory.remove_if_empty(folder);
   }
@@ -280,6 +280,10 @@ StagedResults::MissingDirectories::~MissingDirectories() {
 }
 
 void publish_html_report(const fs::path& directory, const fs::path& accuracy, const std::string& option) {
+  if (read_run_record(directory / run_record_name).is_report_alone)
+    throw OptionError(directory.string() +
+                      ": holds the report alone, which cannot be made anew without the results; run " +
+                      "the scene with keep = \"results\" in [results]");
   const auto page = html_report(directory, accuracy);
   StagedResults staged(directory, names_of({"report.html"}), option);
   write_text_file(staged.folder() / "report.html", page);

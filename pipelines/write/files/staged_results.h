@@ -8,8 +8,8 @@
 /// or `report`, moves what is still in it to its place. Before it, nothing of the earlier results is touched.
 ///
 /// What is there already is this program's if the manifest of the directory lists it with the checksum that
-/// it has, or if it is a kept file (kept_file.h). Nothing else is replaced or removed, and nothing is read or
-/// written through a link in the directory. Several commands share a directory and its manifest.
+/// it has, or if it has unit responses (kept_file.h). Nothing else is replaced or removed, and nothing is
+/// read or written through a link in the directory. Several commands share a directory and its manifest.
 #pragma once
 
 #include <filesystem>
@@ -43,7 +43,7 @@ public:
   std::filesystem::path directory() const { return directory_.path(); }
 
   /// Puts everything that was written into its place, with the manifest, and removes what earlier commands
-  /// have left under names that this one gives: for bodies that a run does not have their unit responses too.
+  /// have left under names that this one gives.
   /// @throws OptionError if something would be replaced that must not be, or if results of another variant
   ///         have come there meanwhile; nothing is touched then
   /// @throws FileError, std::filesystem::filesystem_error if the disk does not take it, or if not exactly
@@ -81,7 +81,7 @@ void require_own_outputs(const std::filesystem::path& directory, const OutputNam
 /// Makes report.html of a result directory anew, of the files that are there.
 /// @param accuracy  as html_report
 /// @param option  that named the directory, for the message
-/// @throws as html_report and StagedResults
+/// @throws as html_report and StagedResults; OptionError where a run has kept its report alone
 void publish_html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy,
                          const std::string& option = "-o");
 

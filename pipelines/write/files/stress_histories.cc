@@ -10,15 +10,18 @@
 #include <regex>
 
 #include "pipelines/base/common/errors.h"
+#include "pipelines/base/disk/cache.h"
 #include "pipelines/base/files/hdf5_file.h"
 #include "pipelines/base/files/json_file.h"
+#include "pipelines/base/files/kept_file.h"
 #include "pipelines/base/names/name_lists.h"
 #include "pipelines/base/names/nearest_name.h"
-#include "pipelines/respond/responses/respond.h"
 #include "pipelines/respond/responses/response_files.h"
 #include "pipelines/superpose/envelope/superposition.h"
 #include "pipelines/write/exports/vtk_files.h"
 #include "pipelines/write/files/envelope_files.h"
+#include "pipelines/write/files/result_names.h"
+#include "pipelines/write/files/run_record.h"
 
 namespace pipelines {
 namespace {
@@ -306,6 +309,16 @@ Stress stress_of(const Eigen::ArrayXXd& all, Index i) {
   return {all(0, i), all(1, i), all(2, i), all(3, i), all(4, i), all(5, i)};
 }
 
+/// Unit responses of a run, from the body's folder or the user's cache.
+/// @param key_hash  text_hash of their key
+std::optional<fem::UnitResponses> responses_of(const std::filesystem::path& folder,
+                                               const std::string& key_hash) {
+  for (const auto& file : {folder / responses_file_names().front(), cached_file(key_hash)})
+    if (!key_hash.empty() && check_kept_file_of(file, key_hash) == KeptFile::whole)
+      return read_unit_responses(file, Hdf5Reader(file).text_attribute("/", "key"));
+  return std::nullopt;
+}
+
 }  // namespace
 
 Eigen::ArrayXd StressHistory::von_mises_Pa() const {
@@ -339,6 +352,7 @@ StressHistories read_stress_histories(const std::filesystem::path& results,
   const auto summary = read_json_file(results / "summary.json");
   if (!summary.is_object() || !summary.contains("bodies") || summary["bodies"].empty())
     throw StageRefused((results / "summary.json").string() + ": the run has no body, and so no stress");
+  auto record = read_run_record(results / run_record_name);
   StressHistories histories;
   const Hdf5Reader loads(results / "loads.h5");
   histories.time_s = column(loads, "/time");
@@ -346,18 +360,17 @@ StressHistories read_stress_histories(const std::filesystem::path& results,
   std::vector<RunBody> bodies;
   for (const auto& [name, json] : summary.at("bodies").items()) {
     const std::string method = json.value("method", "solid");
-    const auto file = results / name / kept_responses_name(method_of(method).value_or(Method::solid));
-    if (method == "beam") {  // the file may be there, of a run before
+    if (method == "beam") {
       histories.left_out.push_back(name + ": a beam keeps no unit responses; --method solid does");
       continue;
     }
-    if (!std::filesystem::exists(file)) {
-      histories.left_out.push_back(name + ": " + file.filename().string() +
-                                   " was removed; run --fresh makes it");
+    auto responses = responses_of(results / name, record.responses[name]);
+    if (!responses) {
+      histories.left_out.push_back(name +
+                                   ": its unit responses are not in the cache, where the run could not leave "
+                                   "them; keep = \"all\" in [results] leaves them beside the results");
       continue;
     }
-    auto responses = read_unit_responses(file, Hdf5Reader(file).text_attribute("/", "key"));
-    if (!responses) throw FileError(file.string() + ": cannot be read; run the scene with --fresh");
     auto channels = channels_of(loads, name, *responses, histories.time_s.size());
     auto left_out = wanted.empty() ? std::vector<std::int32_t>()
                                    : left_out_of(json, results / name / "envelope.vtu", responses->nodes.n);

@@ -20,9 +20,11 @@
 #include "pipelines/write/fields/run_fields.h"
 #include "pipelines/write/fields/train_fields.h"
 #include "pipelines/write/fields/zone_fields.h"
+#include "pipelines/write/living/living_assets.h"
 #include "pipelines/write/parts/duty_report.h"
 #include "pipelines/write/parts/fatigue_report.h"
 #include "pipelines/write/parts/shaft_torsion_report.h"
+#include "pipelines/write/report/page_parts.h"
 
 namespace pipelines {
 namespace {
@@ -79,16 +81,18 @@ void add_effects(HtmlPage& page, const Json& peak) {
   page.table({{"in sum", "share"}, sums});
 }
 
-void add_zones(HtmlPage& page, const Json& body) {
+void add_zones(HtmlPage& page, const std::string& name, const Json& body) {
   const auto& zones = body.at("zones");
   const auto fields = fields_of(zone_fields());
   page.heading(3, "Zones above " + MPa(body.at("zone_level").at("value")) + " MPa");
   page.table(shown_rows(fields, zones, zones.size()));
-  page.table(shown_details(fields, zones, zones.size()));
+  page.folded("What brings the zones of the " + name,
+              [&] { page.table(shown_details(fields, zones, zones.size())); });
   auto parts = Json::array();
   for (const auto& zone : zones)
     for (const auto& part : zone.value("parts", Json::array())) parts.push_back(part);
-  page.table(shown_rows(fields_of(zone_part_fields()), parts, parts.size()));
+  page.folded("Parts of the zones of the " + name,
+              [&] { page.table(shown_rows(fields_of(zone_part_fields()), parts, parts.size())); });
   if (!body.contains("hot_spots")) return;
   constexpr std::size_t most = 12;
   page.heading(3, "Hot-spot stress at weld toes");
@@ -216,8 +220,10 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
                              body.at("material").get<std::string>(),
                              MPa(body.at("yield_strength").at("value")), solved_by(body)));
   page.table(headline_rows(body));
+  page.markup("<div class=\"still\">\n");  // in print, and where nothing draws in three dimensions
   page.picture(directory / name / "envelope.png", "Largest von Mises stress over the cycle, " + name);
-  add_zones(page, body);
+  page.markup("</div>\n");
+  add_zones(page, name, body);
   const auto& governing = body.at("governing");
   const auto& peak = body.at("peak_von_mises");
   page.folded("How well the stress is known", [&] {
@@ -289,22 +295,36 @@ std::string window_of(const Json& input) {
                      number(run.at("instants"), 1, "{:.0f}"));
 }
 
-std::string page_of(const Json& summary, const std::filesystem::path& directory,
-                    const std::filesystem::path& accuracy) {
+/// Keys of the living page; null where there is none.
+Json keys_of(const LivingPage& living) {
+  return living.empty() ? Json(nullptr) : Json::parse(living.keys);
+}
+
+void add_head(HtmlPage& page, const Json& summary) {
   const auto& input = summary.at("input");
-  HtmlPage page(input.at("title").get<std::string>());
+  page.markup("<header>\n");
   page.heading(1, input.at("title").get<std::string>());
   page.paragraph(fmt::format("{}, {}; scene {} ({}); millstress {}",
                              with_spaces(input.at("machine").get<std::string>()), window_of(input),
                              input.at("scene").get<std::string>(), input.at("hash").get<std::string>(),
                              summary.at("program").at("version").get<std::string>()));
   add_verdict(page, summary);
+  add_cards(page, summary);
   if (input.contains("settings"))
     for (const auto& setting : input.at("settings"))
       page.paragraph("Set on the command line: " + setting.get<std::string>());
   page.folded(fmt::format("Warnings ({})", summary.at("warnings").size()), [&] {
     for (const auto& warning : summary.at("warnings")) page.warning(warning.get<std::string>());
   });
+  page.markup("</header>\n");
+}
+
+std::string page_of(const Json& summary, const std::filesystem::path& directory,
+                    const std::filesystem::path& accuracy, const LivingPage& living) {
+  HtmlPage page(summary.at("input").at("title").get<std::string>(), page_style(),
+                living.empty() ? "" : page_script());
+  add_head(page, summary);
+  page.markup("<main>\n<div id=\"living\"></div>\n");
   if (summary.contains("bodies"))
     for (const auto& [name, body] : summary.at("bodies").items()) add_body(page, directory, name, body);
   add_loads(page, summary);
@@ -313,13 +333,14 @@ std::string page_of(const Json& summary, const std::filesystem::path& directory,
   add_duty(page, summary);
   add_train(page, summary);
   add_accuracy(page, accuracy);
+  add_inputs(page, summary, keys_of(living));
   if (summary.contains("timing")) page.folded("Time and memory", [&] { add_timing(page, summary); });
+  page.markup("</main>\n" + living_elements(living));
   return page.text();
 }
 
-}  // namespace
-
-std::string html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy) {
+std::string report_of(const std::filesystem::path& directory, const std::filesystem::path& accuracy,
+                      const LivingPage& living) {
   const auto file = directory / "summary.json";
   if (std::error_code none; !std::filesystem::exists(file, none))
     throw OptionError(file.string() +
@@ -335,11 +356,17 @@ std::string html_report(const std::filesystem::path& directory, const std::files
   if (summary.is_discarded()) refuse("it is no whole JSON text");
   std::string page;
   try {
-    page = page_of(summary, directory, accuracy);
+    page = page_of(summary, directory, accuracy, living);
   } catch (const nlohmann::json::exception& error) {
     refuse(error.what());
   }
   return page;
+}
+
+}  // namespace
+
+std::string html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy) {
+  return report_of(directory, accuracy, living_of(file_text(directory / "report.html")));
 }
 
 bool is_html_report(const std::filesystem::path& file) {
@@ -350,8 +377,9 @@ bool is_html_report(const std::filesystem::path& file) {
          text.find(program) != std::string::npos;
 }
 
-void write_html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy) {
-  write_text_file(directory / "report.html", html_report(directory, accuracy));
+void write_html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy,
+                       const LivingPage& living) {
+  write_text_file(directory / "report.html", report_of(directory, accuracy, living));
 }
 
 }  // namespace pipelines

@@ -73,6 +73,15 @@ void take_window(const RunReport& report, Json& input) {
                             {"instants", loads.n_instants()}});
 }
 
+/// Of the file that a text of the scene names, counted from its folder; empty: it names none.
+std::string hash_of_file_beside(const std::filesystem::path& scene, const std::string& text) {
+  const std::filesystem::path name(text);
+  if (!name.has_extension()) return "";
+  const auto file = scene.parent_path() / name;
+  std::error_code none;
+  return std::filesystem::is_regular_file(file, none) ? content_hash(file) : "";
+}
+
 }  // namespace
 
 std::string summary_json(const RunReport& report) {
@@ -87,6 +96,10 @@ std::string summary_json(const RunReport& report) {
   json["verdict"] = verdict_json(judge(report));
   take_window(report, json["input"]);
   if (!report.scene.settings.empty()) json["input"]["settings"] = report.scene.settings;
+  json["input"]["keys"] = report.scene.keys;
+  for (const auto& [key, text] : report.scene.keys)
+    if (const auto hash = hash_of_file_beside(report.scene.file, text); !hash.empty())
+      json["input"]["files"][key] = hash;
   for (const auto& samples : samples_read(report.scene.machine, report.scene.sampling))
     json["input"]["samples"].push_back(object({{"effect", samples.effect},
                                                {"rows", samples.n},

@@ -3,7 +3,7 @@
 
 #include "pipelines/base/common/statistics.h"
 #include "pipelines/judge/analysis/exclusion_border.h"
-#include "pipelines/judge/estimates/energy_errors.h"
+#include "pipelines/judge/figures/energy_errors.h"
 #include "pipelines/judge/stages/body_vibration.h"
 #include "pipelines/write/fields/run_fields.h"
 #include "pipelines/write/fields/zone_fields.h"

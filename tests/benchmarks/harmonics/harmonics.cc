@@ -119,13 +119,12 @@ struct Run {
   int harmonics = 0;
 };
 
-Run run(const Scene& scene, double tolerance, const fs::path& directory) {
+Run run(const Scene& scene, double tolerance) {
   StageClock clock;
   SceneRunOptions options;
-  options.directory = directory;
   options.n_threads = 1;
   options.fresh = true;
-  options.keep = false;
+  options.cache = false;
   options.accuracy.tolerance = tolerance;
   auto result = run_scene(scene, options, clock);
   return {std::move(result.analyses.front()), result.loaded.scene.bodies.front().pressure_harmonics};
@@ -201,8 +200,8 @@ void print_sections(unsigned seed, const Scene& scene, int n_sections) {
   }
 }
 
-void print_check(unsigned seed, const Scene& scene, const fs::path& directory) {
-  const auto analysis = run(scene, 0.005, directory).analysis;
+void print_check(unsigned seed, const Scene& scene) {
+  const auto analysis = run(scene, 0.005).analysis;
   const auto peaks_m = peaks_of(analysis.place_stresses);
   const int last = scene.bodies.front().pressure_harmonics;
   const auto truth = truth_of(scene, {last}, peaks_m),
@@ -212,13 +211,12 @@ void print_check(unsigned seed, const Scene& scene, const fs::path& directory) {
                100 * (finer.places.at(feature).value_Pa / stress.value_Pa - 1));
 }
 
-void judge(unsigned seed, const Scene& scene, const Options& options, const fs::path& directory,
-           std::vector<Table>& tables) {
+void judge(unsigned seed, const Scene& scene, const Options& options, std::vector<Table>& tables) {
   std::vector<Run> runs;
   std::set<int> truncations;
   int most = scene.bodies.front().pressure_harmonics;
   for (const double tolerance : options.tolerances) {
-    runs.push_back(run(scene, tolerance, directory));
+    runs.push_back(run(scene, tolerance));
     truncations.insert(runs.back().harmonics);
     most = std::max(most, runs.back().harmonics);
   }
@@ -308,9 +306,9 @@ int main(int argc, char** argv) {
       if (options.n_sections > 0)
         print_sections(seed, scene, options.n_sections);
       else if (options.check)
-        print_check(seed, scene, directory);
+        print_check(seed, scene);
       else
-        judge(seed, scene, options, directory, tables);
+        judge(seed, scene, options, tables);
     } catch (const std::exception& error) {  // a drawing that cannot be meshed
       ++n_refused;
       fmt::print("{}: {}\n", seed, error.what());

@@ -72,13 +72,12 @@ void judge_places(const Judged& analysis, const promises::Reference& reference, 
 }
 
 Outcome search(const Scene& scene, const promises::Reference& reference, double tolerance,
-               const Options& options, const fs::path& directory) {
+               const Options& options) {
   StageClock clock;
   SceneRunOptions run_options;
-  run_options.directory = directory;
   run_options.n_threads = 2;
   run_options.fresh = true;
-  run_options.keep = false;
+  run_options.cache = false;
   run_options.second_model = options.second_model;
   run_options.accuracy.tolerance = tolerance;
   run_options.accuracy.time_limit_s = options.time_limit_s;
@@ -168,7 +167,7 @@ int main(int argc, char** argv) {
                reference->feature, 100 * reference->change);
     double looser = 1;
     for (const double tolerance : options.tolerances) {
-      const auto outcome = search(*scene, *reference, tolerance, options, directory);
+      const auto outcome = search(*scene, *reference, tolerance, options);
       count(tally, outcome, tolerance);
       if (outcome.truth > looser + outcome.stated) ++tally.n_worse;
       looser = outcome.truth;

@@ -6,12 +6,10 @@
 /// tolerance leaves them.
 ///   solver_benchmarks <vibratory_mill.toml> halves
 /// The scene's chamber whole and by halves.
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <string>
 
 #include "fem/models/solid/model.h"
@@ -46,10 +44,8 @@ void refine_evenly(const char* scene_file, std::size_t most) {
 }
 
 void bodies_of_scene(const char* scene_file, double tolerance) {
-  const auto folder = std::filesystem::temp_directory_path() / ("solvers-" + std::to_string(getpid()));
   pipelines::SceneRunOptions options;
-  options.directory = folder;
-  options.keep = false;
+  options.cache = false;
   options.fresh = true;
   options.n_threads = n_threads;
   options.accuracy.once = tolerance == 0;
@@ -59,7 +55,6 @@ void bodies_of_scene(const char* scene_file, double tolerance) {
   }
   pipelines::StageClock clock;
   const auto run = pipelines::run_scene(pipelines::read_scene(scene_file), options, clock);
-  std::filesystem::remove_all(folder);
   measure::print_heading();
   for (const auto& analysis : run.analyses) {
     auto body = pipelines::to_fem_body(analysis.mesh, analysis.scene.material);

@@ -237,7 +237,7 @@ TEST(Promises, ACheapModelKeepsItsErrorsBesideAnotherBody) {
   write(directory / "mill.toml",
         edited("vibratory_mill.toml", {{"cells_through_wall = 2", "cells_through_wall = 1"},
                                        {"# size = \"20 mm\"", "size = \"40 mm\" #"},
-                                       {"snapshots = 24", "snapshots = 0"},
+                                       {"snapshots = 12", "snapshots = 0"},
                                        {"pictures = true", "pictures = false"},
                                        {"instants_per_turn = 120", "instants_per_turn = 36"}}));
   const auto run = as_a_user(directory.path, "run mill.toml -o out --tolerance '15 %' --time-limit '8 s'");

@@ -49,7 +49,7 @@ TEST(Tolerance, EachIsMetAgainstTheStrictest) {
   }
   EXPECT_GT(shaft_of(results["1"])["search"]["steps"].size(),
             shaft_of(results["20"])["search"]["steps"].size());
-  EXPECT_TRUE(fs::exists(directory / "1/shaft/unit_responses.h5"));
+  EXPECT_TRUE(fs::exists(cached_responses(directory.path, "1")));
 }
 
 // Torsion of order 37 at 148 instants a turn, four in its period and all 45 degrees off a crest: harmonics
@@ -131,8 +131,9 @@ TEST(Tolerance, AMeshThatDoesNotFitEndsTheSearchWithWhatItHas) {
   EXPECT_FALSE(search["met"].get<bool>());
   ASSERT_GE(search["steps"].size(), 2U);
   EXPECT_EQ(shaft_of(json)["dofs"], search["steps"].back()["dofs"]);
-  for (const std::string file : {"mesh.msh", "envelope.vtu", "unit_responses.h5"})
+  for (const std::string file : {"mesh.msh", "envelope.vtu"})
     EXPECT_TRUE(fs::exists(directory / "out/shaft" / file)) << file;
+  EXPECT_TRUE(fs::exists(cached_responses(directory.path, "out")));
 }
 
 // `check --thorough` knows the meshes of a run and of a search to the last unknown, and the solver's memory
@@ -202,13 +203,13 @@ TEST(Tolerance, WhatASearchMetIsToldAfterMoreInstants) {
   ASSERT_EQ(run().exit_code, 0);
   ASSERT_GT(summary(directory / "solid")["input"]["instants_per_turn"].get<int>(), 24)
       << "else there is no case";
-  const auto kept = directory / "solid/shaft/unit_responses.h5";
+  const auto kept = cached_responses(directory.path, "solid");
   auto bytes = results_test::bytes(kept);
   bytes[bytes.size() / 3] = char(bytes[bytes.size() / 3] ^ 1);
   write(kept, bytes);
   const auto again = run();
   EXPECT_EQ(again.exit_code, 0);
-  EXPECT_NE(again.err.find("unit_responses.h5: is damaged"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find(kept.filename().string() + ": is damaged"), std::string::npos) << again.err;
   EXPECT_NE(summary(directory / "solid")["warnings"].dump().find("is damaged"), std::string::npos);
 }
 

@@ -11,7 +11,7 @@ namespace {
 // Quick meshes: what is tested here are loads, masses and equilibrium, and stresses only in size.
 const Edits coarse_chamber{{"cells_through_wall = 2", "cells_through_wall = 1"},
                            {"# size = \"20 mm\"", "size = \"40 mm\" #"},
-                           {"snapshots = 24", "snapshots = 0"},
+                           {"snapshots = 12", "snapshots = 0"},
                            {"pictures = true", "pictures = false"},
                            {"instants_per_turn = 120", "instants_per_turn = 24"},
                            {"  \"gravity_shaft\", \"shaft_inertia\",", "  #"}};
@@ -22,7 +22,7 @@ const Edits coarse_drum{{"cells_per_fillet_quarter = 6", "cells_per_fillet_quart
 
 nlohmann::json run(const fs::path& directory, const std::string& scene, std::string* err = nullptr) {
   write(directory / "scene.toml", scene);
-  const auto outcome = millstress(directory, "run scene.toml -o out");
+  const auto outcome = millstress(directory, "run scene.toml --set results.keep=all -o out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   if (err != nullptr) *err = outcome.err;
   return outcome.exit_code == 0 ? summary(directory / "out") : nlohmann::json();

@@ -195,7 +195,7 @@ TEST(Fatigue, WeldToesHaveAtLeastTheDamageAcrossThem) {
                                       {"instants_per_turn = 120", "instants_per_turn = 24"},
                                       {"cells_through_wall = 2", "cells_through_wall = 1"},
                                       {"level = \"50 % of peak\"", "level = \"20 % of peak\""},
-                                      {"snapshots = 24", "snapshots = 0"},
+                                      {"snapshots = 12", "snapshots = 0"},
                                       {"pictures = true", "pictures = false"},
                                       {"wanted_life = \"2000 h\"", "tensile_strength = \"510 MPa\""}});
   const auto json = run_small(directory.path, chamber);

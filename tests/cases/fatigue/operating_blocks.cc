@@ -206,7 +206,7 @@ TEST(OperatingBlocks, StartsAreCyclesFromRest) {
 TEST(OperatingBlocks, AVibratoryMillsRunUpIsFollowed) {
   const results_test::Directory directory;
   const auto start_of = [&](const std::string& start) {
-    auto scene = shaft_alone({{"snapshots = 24", "snapshots = 0"},
+    auto scene = shaft_alone({{"snapshots = 12", "snapshots = 0"},
                               {"pictures = true", "pictures = false"},
                               {"title =", "method = \"beam\"\ntitle ="}});
     scene += "\n[shaft.fatigue]\ntensile_strength = \"900 MPa\"\n";
@@ -289,7 +289,7 @@ TEST(OperatingBlocks, HaveTheStressOfToesThatWereSolvedAsSubmodels) {
   const results_test::Directory directory;
   write(directory / "scene.toml", chamber_alone({{"instants_per_turn = 120", "instants_per_turn = 24"},
                                                  {"cells_through_wall = 2", "cells_through_wall = 1"},
-                                                 {"snapshots = 24", "snapshots = 0"},
+                                                 {"snapshots = 12", "snapshots = 0"},
                                                  {"pictures = true", "pictures = false"},
                                                  {"  \"gravity_shaft\", \"shaft_inertia\",", "  #"}}) +
                                       block("own", "100 %"));

@@ -15,7 +15,7 @@ std::string with_effects(std::string text, const std::string& value) {
   return text.replace(begin, end + 1 - begin, "effects = " + value);
 }
 
-const Edits quiet{{"snapshots = 24", "snapshots = 0"}, {"pictures = true", "pictures = false"}};
+const Edits quiet{{"snapshots = 12", "snapshots = 0"}, {"pictures = true", "pictures = false"}};
 const Edits coarse_shaft{{"cells_per_fillet_quarter = 8", "cells_per_fillet_quarter = 2"},
                          {"sectors = 16", "sectors = 8"},
                          {"instants_per_turn = 120", "instants_per_turn = 24"}};

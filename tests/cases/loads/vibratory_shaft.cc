@@ -23,7 +23,7 @@ TEST(VibratoryShaft, AgreesWithStaticsAndTheHandFigures) {
   const auto scene = write(directory / "mill.toml",
                            shaft_alone({{"cells_per_fillet_quarter = 8", "cells_per_fillet_quarter = 4"},
                                         {"sectors = 16", "sectors = 8"},
-                                        {"snapshots = 24", "snapshots = 1"},
+                                        {"snapshots = 12", "snapshots = 1"},
                                         {"pictures = true", "pictures = false"},
                                         {"instants_per_turn = 120", "instants_per_turn = 72"},
                                         {"  \"charge_lag\", ", "  # "},

@@ -65,7 +65,7 @@ Edits specified_chamber() {
 Edits coarse() {
   return {{"cells_per_fillet_quarter = 8", "cells_per_fillet_quarter = 2"},
           {"sectors = 16", "sectors = 8"},
-          {"snapshots = 24", "snapshots = 2"},
+          {"snapshots = 12", "snapshots = 2"},
           {"pictures = true", "pictures = false"},
           {"instants_per_turn = 120", "instants_per_turn = 24"}};
 }
@@ -206,6 +206,11 @@ std::map<std::string, std::string> contents(const fs::path& directory) {
 
 nlohmann::json summary(const fs::path& results) {
   return nlohmann::json::parse(results_test::bytes(results / "summary.json"));
+}
+
+fs::path cached_responses(const fs::path& directory, const std::string& results, const std::string& body) {
+  const auto run = nlohmann::json::parse(results_test::bytes(directory / results / "run.json"));
+  return directory / "cache/millstress" / (run.at("responses").at(body).get<std::string>() + ".h5");
 }
 
 /// A cell up to its comma, or a text in quotes with the commas in it.

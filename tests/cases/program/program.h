@@ -106,6 +106,11 @@ std::map<std::string, std::string> contents(const fs::path& directory);
 
 nlohmann::json summary(const fs::path& results);
 
+/// The file of a body's unit responses in the cache of a test.
+/// @param directory  the test's, where the program was started
+fs::path cached_responses(const fs::path& directory, const std::string& results,
+                          const std::string& body = "shaft");
+
 /// What a command prints for machines: its arguments have `--json`.
 nlohmann::json json_of(const fs::path& directory, const std::string& arguments);
 

@@ -62,7 +62,7 @@ std::vector<WritingCommand> writing_commands() {
           {"sweep small.toml -q --loads --vary 'machine.constants[1].value = 1, 2 N' -o ",
            "-o",
            {"manifest.json", "journal", "sweep.csv", "sweep.h5", "zones.csv", "map.png", "map_2.svg",
-            "chart.png", "chart_7.png", "bodies/1/shaft/unit_responses.h5"}},
+            "chart.png", "chart_7.png"}},
           {"accuracy small.toml -q -o ",
            "-o",
            {"accuracy/manifest.json", "accuracy/accuracy.h5", "accuracy/shaft.txt", "accuracy/shaft.csv",

@@ -51,20 +51,20 @@ std::vector<std::string> differing_figures(const fs::path& a, const fs::path& b,
 TEST(Runs, RepeatBitByBitFreshAndReused) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse() + Edits{{"pictures = false", "pictures = true"}}));
-  for (const char* out : {"first", "second"})
-    ASSERT_EQ(millstress(directory.path, std::string("run mill.toml --threads 2 -o ") + out, as_a_new_process)
+  for (const char* out : {"first", "second"}) {
+    ASSERT_EQ(millstress(directory.path, std::string("run mill.toml --threads 2 --fresh -o ") + out,
+                         as_a_new_process)
                   .exit_code,
               0);
+  }
   const auto first = contents(directory / "first");
   const auto second = contents(directory / "second");
   const std::set<std::string> wanted{"loads.h5",
-                                     "loads.csv",
                                      "summary.json",
                                      "manifest.json",
                                      "run.json",
                                      "report.html",
                                      "shaft/mesh.msh",
-                                     "shaft/unit_responses.h5",
                                      "shaft/envelope.vtu",
                                      "shaft/cycle.pvd",
                                      "shaft/cycle_000.vtu",
@@ -99,12 +99,14 @@ TEST(Runs, RepeatBitByBitFreshAndReused) {
   EXPECT_NE(nowhere.err.find("elsewhere/summary.json: there is no such file"), std::string::npos)
       << nowhere.err;
 
-  // A third run into the first directory takes the unit responses that are there. It has to compute: what it
-  // would repeat is no more on record.
-  const auto before = fs::last_write_time(directory / "first/shaft/unit_responses.h5");
+  // A third run into the first directory takes the unit responses that are in the cache. It has to compute:
+  // what it would repeat is no more on record.
+  const auto kept = cached_responses(directory.path, "first");
+  EXPECT_EQ(cached_responses(directory.path, "second"), kept);
+  const auto before = fs::last_write_time(kept);
   fs::remove(directory / "first/run.json");
   ASSERT_EQ(millstress(directory.path, "run mill.toml --threads 2 -o first", as_a_new_process).exit_code, 0);
-  EXPECT_EQ(fs::last_write_time(directory / "first/shaft/unit_responses.h5"), before);
+  EXPECT_EQ(fs::last_write_time(kept), before);
   const auto reused = contents(directory / "first");
   for (const auto& [name, bytes] : first)
     EXPECT_TRUE(bytes == reused.at(name)) << name << " differs when the unit responses are reused";
@@ -113,11 +115,12 @@ TEST(Runs, RepeatBitByBitFreshAndReused) {
   write(directory / "mill.toml",
         shaft_alone(coarse() + Edits{{"speed = \"151.844 rad/s\"", "speed = \"140 rad/s\""}}));
   ASSERT_EQ(millstress(directory.path, "run mill.toml --threads 2 -o first").exit_code, 0);
-  EXPECT_EQ(fs::last_write_time(directory / "first/shaft/unit_responses.h5"), before);
+  EXPECT_EQ(fs::last_write_time(kept), before);
+  EXPECT_EQ(cached_responses(directory.path, "first"), kept);
   EXPECT_NE(summary(directory / "first")["loads"]["R_E"], summary(directory / "second")["loads"]["R_E"]);
   write(directory / "mill.toml", shaft_alone(coarse() + Edits{{"206 GPa", "205 GPa"}}));
   ASSERT_EQ(millstress(directory.path, "run mill.toml --threads 2 -o first").exit_code, 0);
-  EXPECT_NE(fs::last_write_time(directory / "first/shaft/unit_responses.h5"), before);
+  EXPECT_NE(cached_responses(directory.path, "first"), kept);
 }
 
 // Sums over cells are taken by the threads in pieces: figures may differ in their last digits, 1e-12, and no
@@ -129,8 +132,8 @@ TEST(Runs, TwoThreadsGiveTheFiguresOfOne) {
   const auto differing = [&](const std::string& keys, double share) {
     write(directory / "scene.toml", small_shaft(loads, "mm", "600 rpm", keys));
     for (const char* threads : {"1", "2"})
-      EXPECT_EQ(millstress(directory.path, "run scene.toml --method solid --threads " + std::string(threads) +
-                                               " -o " + threads)
+      EXPECT_EQ(millstress(directory.path, "run scene.toml --method solid --set results.keep=all --threads " +
+                                               std::string(threads) + " -o " + threads)
                     .exit_code,
                 0);
     return differing_figures(directory / "1", directory / "2", share);
@@ -153,14 +156,18 @@ TEST(Runs, FilesOfBodiesThatAreGoneAreRemoved) {
     return millstress(directory.path, "run small.toml -o out " + options).exit_code;
   };
   const auto out = directory / "out";
-  ASSERT_EQ(run(whole, "--method solid"), 0);
+  ASSERT_EQ(run(whole, "--method solid --set results.keep=all"), 0);
   ASSERT_TRUE(fs::exists(out / "shaft/unit_responses.h5"));
-  fs::remove(out / "run.json");  // else nothing is computed
-  ASSERT_EQ(run(whole, "--method solid"), 0);
-  ASSERT_TRUE(fs::exists(out / "shaft/unit_responses.h5"));
+  ASSERT_TRUE(fs::exists(out / "loads.csv"));
+  fs::copy_file(out / "shaft/unit_responses.h5",
+                out / "shaft/unit_harmonics.h5");  // as earlier versions left it
+  ASSERT_EQ(run(whole, "--method solid --force"), 0);
+  EXPECT_FALSE(fs::exists(out / "shaft/unit_responses.h5"));
+  EXPECT_FALSE(fs::exists(out / "shaft/unit_harmonics.h5"));
+  EXPECT_FALSE(fs::exists(out / "loads.csv"));
   ASSERT_EQ(run(alone), 0);
   EXPECT_FALSE(fs::exists(out / "shaft"));
-  EXPECT_TRUE(fs::exists(out / "loads.csv"));
+  EXPECT_TRUE(fs::exists(out / "loads.h5"));
 
   ASSERT_EQ(run(whole, "--method beam"), 0);
   ASSERT_TRUE(fs::exists(out / "shaft/zones.csv"));
@@ -185,17 +192,17 @@ TEST(Runs, BrokenUnitResponsesAreSolvedAgain) {
   write(directory / "mill.toml", shaft_alone(coarse()));
   ASSERT_EQ(millstress(directory.path, "run mill.toml -o out").exit_code, 0);
   const auto whole = contents(directory / "out");
-  const auto file = directory / "out/shaft/unit_responses.h5";
+  const auto file = cached_responses(directory.path, "out");
   fs::resize_file(file, fs::file_size(file) / 2);
   const auto again = millstress(directory.path, "run mill.toml -q -o out");
   ASSERT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_EQ(again.err.rfind("millstress: out/shaft/unit_responses.h5: is damaged", 0), 0u) << again.err;
+  EXPECT_EQ(again.err.rfind("millstress: " + file.string() + ": is damaged", 0), 0u) << again.err;
   // The summary and the page have the warning; the next run does not.
   const std::set<std::string> with_warning{"summary.json", "report.html", "loads.h5", "manifest.json"};
   for (const auto& [name, bytes] : contents(directory / "out"))
     EXPECT_TRUE(with_warning.count(name) == 1 || bytes == whole.at(name)) << name;
   const auto warnings = summary(directory / "out")["warnings"].dump();
-  EXPECT_NE(warnings.find("unit_responses.h5: is damaged"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find(".h5: is damaged"), std::string::npos) << warnings;
   ASSERT_EQ(millstress(directory.path, "run mill.toml -o out").exit_code, 0);
   for (const auto& [name, bytes] : contents(directory / "out")) EXPECT_TRUE(bytes == whole.at(name)) << name;
 }

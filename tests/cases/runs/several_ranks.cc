@@ -69,7 +69,7 @@ void expect_same(const nlohmann::json& one, const nlohmann::json& two) {
 TEST(SeveralRanks, GiveTheResultsOfOne) {
   const results_test::Directory directory;
   write(directory / "scene.toml", small_scene());
-  const std::string run = "run scene.toml --threads 1 --set results.snapshots=2 -o ";
+  const std::string run = "run scene.toml --threads 1 --set results.snapshots=2 --set results.keep=all -o ";
   const auto one = millstress(directory.path, run + "one");
   ASSERT_EQ(one.exit_code, 0) << one.err;
   const auto two = on_two_ranks(directory.path, run + "two");
@@ -226,7 +226,6 @@ TEST(SeveralRanks, DealOutTheDesignsOfASweep) {
   EXPECT_EQ(count(two.out, "refused"), count(one.out, "refused"));
   EXPECT_EQ(results_test::bytes(directory / "one/sweep.csv"),
             results_test::bytes(directory / "two/sweep.csv"));
-  EXPECT_TRUE(fs::exists(directory / "two/bodies/rank_1"));
 
   // Goes on where rank 1 has lost its rows.
   const auto journal = results_test::bytes(directory / "two/journal");
@@ -246,11 +245,16 @@ TEST(SeveralRanks, DealOutTheDesignsOfASweep) {
 TEST(SeveralRanks, EndASweepThatOneOfThemCannotGoOnWith) {
   const results_test::Directory directory;
   write(directory / "scene.toml", small_scene());
-  fs::create_directories(directory / "out/bodies");
-  write(directory / "out/bodies/rank_1", "no directory");
-  const auto failed = on_two_ranks(directory.path,
-                                   "sweep scene.toml --threads 1 --tolerance none "
-                                   "--vary \"shaft.contour[3].diameter = 12 mm, 14 mm\" -o out");
+  fs::create_directory(directory / "other");
+  write(directory / "other/scene.toml", "no scene");
+  const std::string sweep =
+      "sweep scene.toml --threads 1 --tolerance none --vary \"shaft.contour[3].diameter = 12 mm, 14 mm\" -o "
+      "out";
+  auto one_rank = two_ranks();
+  one_rank.back() = '1';
+  const Start start{directory.path, sweep + " : -n 1 -wdir other '" MILLSTRESS "' " + sweep, "true",
+                    one_rank};
+  const auto failed = outcome_of(start, std::system(shell_command(start).c_str()));
   EXPECT_EQ(failed.exit_code, 2) << failed.err;  // as on one rank
   EXPECT_EQ(count(failed.err, "rank 1: "), 1u) << failed.err;
   EXPECT_EQ(failed.out, "");

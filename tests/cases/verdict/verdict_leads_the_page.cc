@@ -3,8 +3,8 @@
 #include <cctype>
 #include <regex>
 
+#include "tests/cases/program/browser.h"
 #include "tests/cases/program/small_shaft.h"
-#include "tests/unit/pipelines/examples/tools.h"
 
 using namespace cases;
 
@@ -55,19 +55,6 @@ std::string on_page(const Json& finding) {
   return without_spaces(std::regex_replace(all, std::regex("\\+-"), "\u00b1"));
 }
 
-/// @return its exit code
-int start_browser(const fs::path& directory, const std::string& arguments) {
-  const auto command =
-      "cd '" + directory.string() + "' && timeout 120 chromium --headless --no-sandbox --disable-gpu " +
-      "--user-data-dir=browser --window-size=1280,800 " + arguments + " > browsed 2> browser.log";
-  return std::system(command.c_str());
-}
-
-std::string browse(const fs::path& directory, const std::string& arguments) {
-  EXPECT_EQ(start_browser(directory, arguments), 0) << results_test::bytes(directory / "browser.log");
-  return results_test::bytes(directory / "browsed");
-}
-
 /// The page, which writes into its root how far down the headline and the table of verdicts reach [px], and
 /// how many verdicts the table has.
 std::string measuring(std::string page) {
@@ -95,7 +82,7 @@ TEST(VerdictLeadsThePage, OnTheFirstScreenAndTheFirstPrintedPage) {
   SKIP_WITHOUT("chromium");
   SKIP_WITHOUT("pdftotext");
   const results_test::Directory directory;
-  if (start_browser(directory.path, "--dump-dom about:blank") != 0)
+  if (!has_browser(directory.path))
     GTEST_SKIP() << "skipped: chromium does not start in this system";
   const auto json = of_two_bodies(run_small(directory.path, unsound_shaft()));
   std::vector<Json> findings;
@@ -110,7 +97,7 @@ TEST(VerdictLeadsThePage, OnTheFirstScreenAndTheFirstPrintedPage) {
   ASSERT_EQ(report.exit_code, 0) << report.err;
 
   write(directory / "measured.html", measuring(results_test::bytes(directory / "page/report.html")));
-  const auto screen = browse(directory.path, "--dump-dom measured.html");
+  const auto screen = elements_after(directory.path, "measured.html", 10);
   EXPECT_EQ(measured(screen, "width"), 1280);
   EXPECT_EQ(measured(screen, "rows"), double(findings.size()));
   EXPECT_GT(measured(screen, "bottom"), 0);

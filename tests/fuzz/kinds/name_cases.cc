@@ -124,8 +124,8 @@ std::string fault_of_files(const Place& place) {
   if (read.texts("/effect_names") != loads.effects) return "loads.h5 has other names of effects";
   for (const auto& resultant : loads.resultants)
     for (const auto& part : resultant.contributions)
-      if (!read.has("/effects/" + part.effect + "/" + resultant.role + "/fx"))
-        return "loads.h5 lacks " + part.effect + " of " + resultant.role;
+      if (!read.has("/effects/" + loads.effects[part.effect] + "/" + resultant.role + "/fx"))
+        return "loads.h5 lacks " + loads.effects[part.effect] + " of " + resultant.role;
   pipelines::write_loads_csv(place / "loads.csv", loads, {});
   pipelines::read_table_file(place / "loads.csv");
   return "";

@@ -22,7 +22,8 @@ std::string fault_of_loads(const kinetics::LoadHistory& loads) {
   for (const auto& resultant : loads.resultants) {
     if (!resultant.total.isFinite().all()) return resultant.role + " is not finite";
     for (const auto& part : resultant.contributions)
-      if (!part.load.isFinite().all()) return part.effect + " in " + resultant.role + " is not finite";
+      if (!part.load.isFinite().all())
+        return loads.effects[part.effect] + " in " + resultant.role + " is not finite";
   }
   return "";
 }

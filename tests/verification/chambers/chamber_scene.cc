@@ -88,13 +88,11 @@ meshes::Chamber small_random_chamber(std::mt19937& random) {
   }
 }
 
-pipelines::SceneRun run(const pipelines::Scene& scene, const std::filesystem::path& directory,
-                        const pipelines::RequestedAccuracy& accuracy) {
+pipelines::SceneRun run(const pipelines::Scene& scene, const pipelines::RequestedAccuracy& accuracy) {
   pipelines::SceneRunOptions options;
-  options.directory = directory;
   options.n_threads = 1;
   options.fresh = true;
-  options.keep = false;
+  options.cache = false;
   options.accuracy = accuracy;
   pipelines::StageClock clock;
   return pipelines::run_scene(scene, options, clock);

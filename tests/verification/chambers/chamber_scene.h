@@ -21,7 +21,6 @@ meshes::Chamber small_random_chamber(std::mt19937& random);
 /// One web, two feet, a wall of a tenth of the radius.
 meshes::Chamber small_chamber();
 
-pipelines::SceneRun run(const pipelines::Scene& scene, const std::filesystem::path& directory,
-                        const pipelines::RequestedAccuracy& accuracy = {});
+pipelines::SceneRun run(const pipelines::Scene& scene, const pipelines::RequestedAccuracy& accuracy = {});
 
 }  // namespace chambers

@@ -18,8 +18,8 @@ namespace {
 TEST(CoarseToes, AreBoundedByTheirStatedErrors) {
   const results_test::Directory directory;
   const auto scene = chambers::scene_around(chambers::small_chamber(), directory.path);
-  const auto first = chambers::run(scene, directory / "first", {0.05, 1e-3});  // no time for a second mesh
-  const auto finer = chambers::run(scene, directory / "finer");
+  const auto first = chambers::run(scene, {0.05, 1e-3});  // no time for a second mesh
+  const auto finer = chambers::run(scene);
   const auto& coarse = first.analyses.at(0);
   const auto& fine = finer.analyses.at(0);
   ASSERT_EQ(coarse.search.steps.size(), 1U);
@@ -50,7 +50,7 @@ TEST(CoarseCellsAway, AreInTheErrorsOfPlacesThatDoNotGovern) {
   chamber.flanges.thickness_m = 35 * mm;
   chamber.lugs.thickness_m = 8 * mm;
   const auto scene = chambers::scene_around(chamber, directory.path);
-  const auto run = chambers::run(scene, directory / "found", {0.05, 120});
+  const auto run = chambers::run(scene, {0.05, 120});
   const auto& found = run.analyses.at(0);
   ASSERT_TRUE(found.search.met);
   ASSERT_EQ(found.search.quantity, "hot-spot stress");

@@ -44,20 +44,20 @@ void describe_loads_better(pipelines::Scene& scene, const pipelines::Scene& foun
 /// finer from one to the next until they have so many unknowns; toes by submodels. Where a surface governs
 /// that these do not resolve, such as the housing's bore: a search with cubic cells to a fifth of the
 /// tolerance.
-pipelines::SceneRun reference(pipelines::Scene scene, const std::filesystem::path& directory) {
+pipelines::SceneRun reference(pipelines::Scene scene) {
   constexpr std::size_t enough = 450000;
   constexpr double resolved = 0.05;
-  auto run = chambers::run(scene, directory);
+  auto run = chambers::run(scene);
   for (int step = 0; step < 6 && run.analyses.at(0).responses.n_dofs < enough; ++step) {
     const auto& analysis = run.analyses.at(0);
     if (!pipelines::refine_mesh(scene.bodies[0], analysis, analysis.place_stresses, pipelines::MeshPart::all))
       break;
-    run = chambers::run(scene, directory);
+    run = chambers::run(scene);
   }
   const auto governing = pipelines::governing_stress(run.analyses.at(0));
   if (governing.kind == pipelines::GoverningStress::Kind::peak && governing.relative_error() > resolved) {
     scene.bodies[0].degree = 3;
-    run = chambers::run(scene, directory, {asked / 5, 300});
+    run = chambers::run(scene, {asked / 5, 300});
   }
   return run;
 }
@@ -74,8 +74,7 @@ TEST(RandomChambers, AreBoundedByTheirStatedErrors) {
     const results_test::Directory directory;
     pipelines::SceneRun found;
     try {
-      found =
-          chambers::run(chambers::scene_around(chamber, directory.path), directory / "found", {asked, 120});
+      found = chambers::run(chambers::scene_around(chamber, directory.path), {asked, 120});
     } catch (const std::exception& refused) {  // parts in each other's way: the draw allows it
       continue;
     }
@@ -85,7 +84,7 @@ TEST(RandomChambers, AreBoundedByTheirStatedErrors) {
     n_by_halves += !analysis.responses.images.node.empty();
     auto scene = chambers::scene_around(chamber, directory.path);
     describe_loads_better(scene, found.loaded.scene);
-    const auto finest = reference(std::move(scene), directory / "reference");
+    const auto finest = reference(std::move(scene));
     const auto truth = pipelines::governing_stress(finest.analyses.at(0));
     const double error = stated.value_Pa / truth.value_Pa - 1;
     const bool is_bounded = std::abs(stated.value_Pa - truth.value_Pa) <= stated.errors.numerical_Pa();

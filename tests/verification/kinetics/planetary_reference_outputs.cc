@@ -48,10 +48,11 @@ void expect_contributions(const Json& reference, const LoadHistory& loads) {
   const auto& parts = loads.resultant("axle").contributions;
   EXPECT_EQ(reference.size(), parts.size());
   for (const auto& part : parts) {
-    const Json& expected = reference.at(part.effect == "charge_offset" ? "charge_relative" : part.effect);
+    const std::string& effect = loads.effects[part.effect];
+    const Json& expected = reference.at(effect == "charge_offset" ? "charge_relative" : effect);
     const double scale = std::max(scale_of(expected["X"]), scale_of(expected["Y"]));
-    expect_series(expected["X"], part.load.row(0).transpose(), part.effect + ".X", scale);
-    expect_series(expected["Y"], -part.load.row(1).transpose(), part.effect + ".Y", scale);
+    expect_series(expected["X"], part.load.row(0).transpose(), effect + ".X", scale);
+    expect_series(expected["Y"], -part.load.row(1).transpose(), effect + ".Y", scale);
   }
 }
 

@@ -142,7 +142,7 @@ TEST(RunUpLaws, InertiaIsMinusMassTimesAcceleration) {
   expect(charge.row(0).transpose(), second(sx + loads.quantity("charge_at.x").values), m.charge_mass_kg);
   expect(charge.row(1).transpose(), second(sy + loads.quantity("charge_at.y").values), m.charge_mass_kg);
   for (const auto& part : loads.resultant("eccentric").contributions)
-    if (part.effect == "structure_inertia") {
+    if (loads.effects[part.effect] == "structure_inertia") {
       expect(part.load.row(0).transpose(), second(sx), m.structure_mass_kg);
       expect(part.load.row(1).transpose(), second(sy), m.structure_mass_kg);
     }

@@ -90,14 +90,15 @@ void expect_contributions(const Json& reference, const LoadHistory& loads) {
   const auto& parts = loads.resultant("frame_bearings").contributions;
   EXPECT_EQ(reference.size(), parts.size());
   for (const auto& part : parts) {
-    const bool renamed = loads.convention == "published" && part.effect == "springs";
-    const Json& expected = reference.at(renamed ? "spring_force" : part.effect);
+    const std::string& effect = loads.effects[part.effect];
+    const bool renamed = loads.convention == "published" && effect == "springs";
+    const Json& expected = reference.at(renamed ? "spring_force" : effect);
     double scale = 1e-300;  // a force's smaller component is judged by the force
     for (const char* axis : {"fx", "fy"})
       for (const Json& value : expected[axis]) scale = std::max(scale, std::abs(value.get<double>()));
     // The reference lists the forces on the machine; the bearings' reaction to a force is its opposite.
-    expect_series(expected["fx"], -part.load.row(0).transpose(), part.effect + ".fx", scale);
-    expect_series(expected["fy"], -part.load.row(1).transpose(), part.effect + ".fy", scale);
+    expect_series(expected["fx"], -part.load.row(0).transpose(), effect + ".fx", scale);
+    expect_series(expected["fy"], -part.load.row(1).transpose(), effect + ".fy", scale);
   }
 }
 

@@ -213,11 +213,10 @@ double at_peak_Pa(const Reference& reference, const Judged& analysis) {
   return value_Pa;
 }
 
-Judged run(const pipelines::Scene& scene, double tolerance, const std::filesystem::path& directory) {
+Judged run(const pipelines::Scene& scene, double tolerance) {
   pipelines::SceneRunOptions options;
-  options.directory = directory / "run";
   options.fresh = true;
-  options.keep = false;
+  options.cache = false;
   options.accuracy.tolerance = tolerance;
   options.accuracy.time_limit_s = tolerance > 0 ? 60 : 0;
   pipelines::StageClock clock;
@@ -230,7 +229,7 @@ void hold(const sharp_parts::SharpPart& part, const std::vector<double>& toleran
   const auto scene = pipelines::read_scene(sharp_parts::write_scene(part, directory.path));
   std::optional<Reference> by_calculix;
   for (const double tolerance : tolerances) {
-    const auto analysis = run(scene, tolerance, directory.path);
+    const auto analysis = run(scene, tolerance);
     ASSERT_FALSE(analysis.mesh.sharp_edges.empty());
     if (!by_calculix) by_calculix = reference(scene, analysis, directory.path);
     ASSERT_EQ(by_calculix->points.size(), n_points);

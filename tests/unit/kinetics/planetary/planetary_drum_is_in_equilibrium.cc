@@ -170,7 +170,7 @@ TEST(PlanetaryEquilibrium, DriveCoupleReplacesTheBelt) {
     const auto& pulley = loads.resultant("pulley");
     EXPECT_EQ(pulley.total.topRows<2>().abs().maxCoeff(), 0);
     ASSERT_EQ(pulley.contributions.size(), 1u);
-    EXPECT_EQ(pulley.contributions[0].effect, "drive_couple");
+    EXPECT_EQ(loads.effects[pulley.contributions[0].effect], "drive_couple");
     EXPECT_TRUE((pulley.total.row(2).transpose() == loads.quantity("drive_couple").values).all());
     const Worst worst = drum_from_ports(loads, Vector2d(0.7, -0.9));
     EXPECT_LE(worst.force, tolerance);

@@ -28,7 +28,7 @@ PlanetaryMill printed(PlanetaryConvention convention = PlanetaryConvention::cons
 std::set<std::string> contributing(const LoadHistory& loads) {
   std::set<std::string> names;
   for (const auto& resultant : loads.resultants)
-    for (const auto& part : resultant.contributions) names.insert(part.effect);
+    for (const auto& part : resultant.contributions) names.insert(loads.effects[part.effect]);
   return names;
 }
 
@@ -78,7 +78,7 @@ TEST(PlanetaryEffects, SingleRunsAddUpToAll) {
     const double scale = all.quantity("R_A").values.maxCoeff();
     EXPECT_LE((sum - without.resultant("axle").total).abs().maxCoeff(), 1e-15 * scale);
     const auto& belt = all.resultant("axle").contributions.back();
-    ASSERT_EQ(belt.effect, "belt");
+    ASSERT_EQ(all.effects[belt.effect], "belt");
     EXPECT_LE((sum + belt.load - all.resultant("axle").total).abs().maxCoeff(), 1e-15 * scale);
     // A ratio belt that keeps its strands is linear in the moment.
     const auto inertia = compute_loads(mill, {"charge_transport", "belt"}, one_turn);
@@ -102,10 +102,11 @@ TEST(PlanetaryEffects, SwitchingOneOffLeavesTheOthersShares) {
       EXPECT_EQ(contributing(fewer).count(off), 0u);
       for (const auto& resultant : fewer.resultants)
         for (const auto& part : resultant.contributions)
-          if (part.effect != "belt" && part.effect != "drive_couple")
+          if (const std::string& effect = fewer.effects[part.effect];
+              effect != "belt" && effect != "drive_couple")
             for (const auto& other : all.resultant(resultant.role).contributions)
-              if (other.effect == part.effect) {
-                EXPECT_TRUE((other.load == part.load).all()) << resultant.role << " " << part.effect;
+              if (all.effects[other.effect] == effect) {
+                EXPECT_TRUE((other.load == part.load).all()) << resultant.role << " " << effect;
               }
     }
   }

@@ -85,7 +85,7 @@ TEST(TrainEffects, AreIndependent) {
   without.erase(without.begin(), without.begin() + 2);
   const auto alone = compute_loads(train, without, {8, 60});
   const auto& contribution = all.resultant("belt_on_driven_pulley").contributions.at(2);
-  EXPECT_EQ(contribution.effect, "roots");
+  EXPECT_EQ(all.effects[contribution.effect], "roots");
   EXPECT_LT(largest(contribution.load - alone.resultant("belt_on_driven_pulley").total), 1e-12);
   auto undamped = train;
   undamped.modal_damping_ratio = 0;

@@ -43,7 +43,7 @@ std::vector<kinetics::vibratory::NamedEffect> counted(const VibratoryMill& m,
 std::set<std::string> contributing(const LoadHistory& loads) {
   std::set<std::string> names;
   for (const auto& resultant : loads.resultants)
-    for (const auto& part : resultant.contributions) names.insert(part.effect);
+    for (const auto& part : resultant.contributions) names.insert(loads.effects[part.effect]);
   return names;
 }
 
@@ -132,8 +132,8 @@ TEST(VibratoryEffects, SwitchingOneOffLeavesTheOthersShares) {
   for (const auto& resultant : fewer.resultants)
     for (const auto& part : resultant.contributions)
       for (const auto& other : all.resultant(resultant.role).contributions)
-        if (other.effect == part.effect) {
-          EXPECT_TRUE((other.load == part.load).all()) << resultant.role << " " << part.effect;
+        if (const std::string& effect = fewer.effects[part.effect]; all.effects[other.effect] == effect) {
+          EXPECT_TRUE((other.load == part.load).all()) << resultant.role << " " << effect;
         }
 }
 
@@ -166,11 +166,13 @@ TEST(VibratoryEffects, OrderOfNamingDoesNotMatter) {
 TEST(VibratoryEffects, InertiaIsPassiveAtRest) {
   auto m = mill();
   m.eccentricity_m = m.charge_offset_m = m.debalance_offset_m = 0;
-  for (const auto& resultant : compute_loads(m, effects_without(m, {}), one_turn).resultants)
+  const auto loads = compute_loads(m, effects_without(m, {}), one_turn);
+  for (const auto& resultant : loads.resultants)
     for (const auto& part : resultant.contributions)
-      if (part.effect != "springs" && part.effect.rfind("gravity", 0) != 0) {
+      if (const std::string& effect = loads.effects[part.effect];
+          effect != "springs" && effect.rfind("gravity", 0) != 0) {
         // The pitch answers to what is left of the static balance of the moments, round-off of about 1e-14 N
         // m.
-        EXPECT_LE(part.load.abs().maxCoeff(), 1e-9) << resultant.role << " " << part.effect;
+        EXPECT_LE(part.load.abs().maxCoeff(), 1e-9) << resultant.role << " " << effect;
       }
 }

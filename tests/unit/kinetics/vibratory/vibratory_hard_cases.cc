@@ -24,7 +24,7 @@ LoadHistory all_effects(const VibratoryMill& mill) {
 
 Eigen::Array3Xd charge_part(const LoadHistory& loads, const std::string& effect) {
   for (const auto& part : loads.resultant("inner_wall").contributions)
-    if (part.effect == effect) return part.load;
+    if (loads.effects[part.effect] == effect) return part.load;
   ADD_FAILURE() << effect;
   return {};
 }

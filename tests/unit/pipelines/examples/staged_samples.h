@@ -71,10 +71,6 @@ inline void publish_first(const fs::path& directory) {
   std::ofstream(directory / "shaft/notes.txt") << "mine";
 }
 
-inline std::string kept_bytes(const fs::path& directory) {
-  return bytes(directory / "shaft/unit_responses.h5");
-}
-
 inline void publish_second(const fs::path& directory) {
   StagedResults staged(directory, run_names({"shaft"}));
   write_second(staged);

@@ -59,9 +59,8 @@ pictures = false
 )" << mesh;
   shared::start_fem();
   SceneRunOptions options;
-  options.directory = directory;
   options.n_threads = 1;
-  options.keep = false;
+  options.cache = false;
   options.second_model = false;
   options.accuracy.once = true;
   StageClock clock;

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "pipelines/loads/stage/load_maker.h"
 #include "pipelines/loads/stage/machine_masses.h"
-#include "pipelines/scene/whole/body_kind.h"
 #include "tests/unit/pipelines/examples/chamber_body.h"
 
 namespace {
@@ -164,7 +164,7 @@ TEST(Chamber, PortsElsewhereThanTheMachinesAreNamed) {
   const auto history = kinetics::compute_loads(chamber::mill(), scene.effects, {20, 72});
   const auto refusal = [&](const pipelines::LoadedBody& loaded) -> std::string {
     try {
-      kind_of(body).distribute(scene, body, history, loaded, masses);
+      load_maker_of(body).distribute(scene, body, history, loaded, masses);
     } catch (const std::invalid_argument& error) {
       return error.what();
     }

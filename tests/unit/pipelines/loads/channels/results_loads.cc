@@ -28,8 +28,8 @@ kinetics::LoadHistory example() {
   loads.quantities = {{"theta", "rad", "angle of the bearing force, (12)", loads.phi_rad.sin()},
                       {"spring_1.fx", "N", "", loads.phi_rad * 3}};
   const Eigen::Array3Xd a = Eigen::Array3Xd::Random(3, n_rows), b = Eigen::Array3Xd::Random(3, n_rows);
-  loads.resultants = {{"eccentric", "on the shaft", a + b, {{"gravity", a}, {"inertia", b}}},
-                      {"debalance", "on the shaft", b, {{"inertia", b}}}};
+  loads.resultants = {{"eccentric", "on the shaft", a + b, {{0, a}, {1, b}}},
+                      {"debalance", "on the shaft", b, {{1, b}}}};
   return loads;
 }
 
@@ -66,7 +66,7 @@ TEST(LoadFiles, Hdf5HoldsEverySeriesWithItsUnit) {
     expect_equal(in.numbers("/resultants/" + resultant.role + "/fy"), resultant.total.row(1));
     expect_equal(in.numbers("/resultants/" + resultant.role + "/torque"), resultant.total.row(2));
     for (const auto& part : resultant.contributions)
-      expect_equal(in.numbers("/effects/" + part.effect + "/" + resultant.role + "/torque"),
+      expect_equal(in.numbers("/effects/" + loads.effects[part.effect] + "/" + resultant.role + "/torque"),
                    part.load.row(2));
   }
   EXPECT_EQ(in.text_attribute("/resultants/eccentric/torque", "unit"), "N m");

@@ -73,9 +73,10 @@ const MassFigure& figure(const MassAgreement& agreed, const std::string& name) {
 }
 
 /// fx of one effect.
-Eigen::ArrayXd part_of(const kinetics::Resultant& resultant, const std::string& effect) {
-  for (const auto& part : resultant.contributions)
-    if (part.effect == effect) return part.load.row(0).transpose();
+Eigen::ArrayXd part_of(const kinetics::LoadHistory& loads, const std::string& role,
+                       const std::string& effect) {
+  for (const auto& part : loads.resultant(role).contributions)
+    if (loads.effects[part.effect] == effect) return part.load.row(0).transpose();
   throw std::out_of_range(effect);
 }
 
@@ -97,7 +98,7 @@ TEST(MachineMasses, PerfectMeshLeavesRoundOff) {
   EXPECT_LT(result.closure.worst_moment(), 1e-12);
   EXPECT_TRUE(bodies::has(result.loads, "covers.fx"));
   // The rings ride on the bore beside the exciter's own share of B: 0.9 kg times ecc omega^2.
-  const Eigen::ArrayXd joint = part_of(result.history.resultant("housing_bore"), "exciter_inertia");
+  const Eigen::ArrayXd joint = part_of(result.history, "housing_bore", "exciter_inertia");
   const Eigen::ArrayXd rings = bodies::part(result.loads, "exciter_inertia", "housing_bore.fx") - joint;
   EXPECT_NEAR(bodies::largest(rings), 0.9 * 0.004 * 151.844 * 151.844, 1e-9);
 }

@@ -2,7 +2,7 @@
 /// and its load histories have.
 #include <gtest/gtest.h>
 
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 #include "pipelines/scene/whole/machine_kind.h"
 #include "tests/unit/pipelines/examples/plain_body.h"
 
@@ -34,7 +34,7 @@ TEST(MachineKinds, HistoriesHaveTheNameOfTheirKind) {
 }
 
 TEST(MachineKinds, EveryBodyHasAMachine) {
-  for (const auto* body : pipelines::body_kinds())
+  for (const auto* body : pipelines::body_readers())
     EXPECT_NE(pipelines::find_machine_kind(body->machine_type()), nullptr) << body->machine_type();
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "pipelines/scene/values/effect_names.h"
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 
 namespace {
 
@@ -36,7 +36,7 @@ TEST(EffectNames, OfThePlanetaryMillAreInItsTable) {
 
 TEST(EffectNames, OfShaftsAreTheirOwn) {
   int n_shafts = 0;
-  for (const auto* kind : pipelines::body_kinds()) {
+  for (const auto* kind : pipelines::body_readers()) {
     const bool is_shaft = kind->tables().front() == "shaft" && kind->machine_type() != "load_table";
     if (!is_shaft) continue;
     ++n_shafts;

@@ -51,9 +51,9 @@ BodyLoads loads_at(const LoadedBody& loaded, const std::string& port) {
   const auto whole = pointing(directions(), sizes());
   const auto across = pointing(directions() + 1.2, 3 * sizes());
   LoadCollector collector(loaded, {"a", "b", "c"}, n_directions, 1000);
-  collector.force(port, "a", 0.25 * whole + across);
-  collector.force(port, "b", 0.75 * whole);
-  collector.force(port, "c", -across);
+  collector.force(port, 0, 0.25 * whole + across);
+  collector.force(port, 1, 0.75 * whole);
+  collector.force(port, 2, -across);
   collector.pressure(port);
   return collector.finish();
 }
@@ -183,7 +183,7 @@ TEST(PressureShares, NoForceNoPressure) {
   Array2Xd f = pointing(directions(), sizes());
   f.col(3).setZero();
   LoadCollector collector(loaded, {"a"}, n_directions, 1000);
-  collector.force("outside", "a", f);
+  collector.force("outside", 0, f);
   collector.pressure("outside");
   const auto loads = collector.finish();
   EXPECT_TRUE(loads.history.values.isFinite().all());

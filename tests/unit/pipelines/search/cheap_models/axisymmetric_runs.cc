@@ -145,10 +145,9 @@ TEST(AxisymmetricRun, PlacesAreThoseOfTheSolid) {
   auto& control = std::get<ShaftShape>(body.shape).mesh;
   control.cells_per_fillet_quarter = 4;
   control.n_sectors = 12;
-  const results_test::Directory at;
   const auto meshed = mesh_body(body, {});
   const auto loads = load_bodies(shaft.scene, {meshed}, shaft.clock).body_loads[0];
-  const auto solid = by_solid(body, meshed, loads, at / "out", shaft.clock);
+  const auto solid = by_solid(body, meshed, loads, shaft.clock);
   const auto own = axisymmetric_stresses(body, meshed, loads, 1).places;
   std::map<std::string, double> of_solid;
   for (const auto& place : largest_by_feature(solid.responses.nodes, solid.envelope.von_mises.value_Pa,
@@ -314,7 +313,6 @@ TEST(AxisymmetricRun, TorsionOfACoarseSolidIsWithinItsError) {
     auto& control = std::get<ShaftShape>(body.shape).mesh;
     control.cells_per_fillet_quarter = 2;
     control.n_sectors = 8;
-    const results_test::Directory at;
     MeshedBody meshed;
     try {
       meshed = mesh_body(body, {});
@@ -322,7 +320,7 @@ TEST(AxisymmetricRun, TorsionOfACoarseSolidIsWithinItsError) {
       continue;  // cells of a bad shape
     }
     const auto loads = load_bodies(shaft.scene, {meshed}, shaft.clock).body_loads[0];
-    auto solid = by_solid(body, meshed, loads, at / "out", shaft.clock);
+    auto solid = by_solid(body, meshed, loads, shaft.clock);
     const auto strict = shaft.stresses(0.001).torsion;
     const Torsion alone(torsion_of(solid), strict);
     solid.diagrams->by_harmonics = axisymmetric_second_model(body, meshed, loads, 0.05, 1)->torsion;

@@ -61,8 +61,8 @@ inline Scene scene_of(const std::string& text) {
 
 /// A body by its solid mesh as it is.
 inline Judged by_solid(const BodyScene& body, const MeshedBody& meshed, const BodyLoads& loads,
-                       const std::filesystem::path& directory, StageClock& clock) {
-  auto superposed = superpose(respond(body, meshed, loads, {directory, 1, true}, clock), 1, clock);
+                       StageClock& clock) {
+  auto superposed = superpose(respond(body, meshed, loads, {1, true}, clock), 1, clock);
   return judge_body(std::move(superposed), meshed, true, 1, clock);
 }
 
@@ -80,7 +80,7 @@ struct LoadedShaft {
   Judged beam() { return searched(Method::beam, 0); }
   Judged searched(Method method, double tolerance) {
     RunOfBody run;
-    run.options = {"", 1};
+    run.options = {1, true};
     run.tolerance = tolerance;
     run.clock = &clock;
     run.load = [this](const Scene& next, std::vector<MeshedBody> meshed) {

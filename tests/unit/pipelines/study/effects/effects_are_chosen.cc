@@ -74,8 +74,8 @@ Eigen::Array2Xd along_x(double force_N) {
 BodyLoads forces(double left_N, double right_N) {
   const auto body = bar();
   LoadCollector collector(body, {"a"}, 2, 1);
-  collector.force("left", "a", along_x(left_N));
-  collector.force("right", "a", along_x(right_N));
+  collector.force("left", 0, along_x(left_N));
+  collector.force("right", 0, along_x(right_N));
   return collector.finish();
 }
 

@@ -89,7 +89,7 @@ TEST(LeadingStress, IsThatOfAWholeEnvelope) {
   std::ofstream(directory / "bar.toml") << stepped_bar;
   StageClock clock;
   SceneRunOptions options;
-  options.directory = directory.path;
+  options.cache = false;
   options.n_threads = 1;
   options.accuracy.once = true;
   const auto run = run_scene(read_scene(directory / "bar.toml"), options, clock);

@@ -1,0 +1,31 @@
+/// What lets a page put the stress of a run together anew: every body's surface with the modes of its unit
+/// fields, the factors over the cycle without each effect, and the loads.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipelines/judge/analysis/judged.h"
+#include "pipelines/loads/stage/load_stage.h"
+
+namespace pipelines {
+
+struct LivingPage {
+  std::string keys;  ///< JSON; README.md of this room has its keys
+  std::string data;  ///< sections of numbers (packed_block.h)
+
+  bool empty() const { return keys.empty(); }
+};
+
+/// The same input gives the same text. Called on all ranks that share a body; empty but on the first.
+/// @param loaded    what the analyses were loaded with
+/// @param analyses  in the order of the scene's bodies; none: the loads alone
+LivingPage living_page(const Loaded& loaded, const std::vector<Judged>& analyses, int n_threads);
+
+/// The elements of a page that hold it.
+std::string living_elements(const LivingPage& living);
+
+/// Reads them from a page; empty where it has none.
+LivingPage living_of(const std::string& page);
+
+}  // namespace pipelines
