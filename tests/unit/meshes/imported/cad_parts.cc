@@ -164,17 +164,11 @@ void needle() {
   fused(rod(0, 0, 0, 30, 4), {{3, occ::addCone(0, 0, 30, 0, 0, 40, 4, 0)}});
 }
 /// A cone as CAD programs write it that know B-splines alone; a scaling makes them of all surfaces.
-void spline_cone(double height, double end_radius) {
+void spline_needle() {
   Solids pencil{{3, occ::addCylinder(0, 0, -10, 0, 0, 10, 10)}}, result;
   std::vector<Solids> map;
-  occ::fuse(pencil, {{3, occ::addCone(0, 0, 0, 0, 0, height / 2, 10, end_radius)}}, result, map);
+  occ::fuse(pencil, {{3, occ::addCone(0, 0, 0, 0, 0, 20, 10, 0)}}, result, map);
   occ::dilate(result, 0, 0, 0, 1, 1, 2);
-}
-void spline_needle() {
-  spline_cone(40, 0);
-}
-void blunt_spline_needle() {
-  spline_cone(38, 0.5);
 }
 void two_points() {
   fused({{3, occ::addCone(0, 0, 0, 0, 0, -20, 10, 0)}}, {{3, occ::addCone(0, 0, 0, 0, 0, 20, 10, 0)}});
@@ -428,7 +422,6 @@ const std::vector<CadPart>& cad_parts() {
       {"pointed bar", pointed_bar},
       {"needle", needle, 0, {"surface 2", "tip of 11.4 degrees at (", "cut the tip off flat"}},
       {"needle of a spline", spline_needle, 0, {"tip", "28.1 degrees at (", "cut the tip off flat"}},
-      {"needle of a spline, cut off", blunt_spline_needle},
       {"points at both ends", two_points},
       {"point on an oblique base", oblique_point},
       {"half ball on a bar", half_ball_end},
