@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "pipelines/base/common/errors.h"
-#include "pipelines/base/common/significant_bits.h"
 #include "pipelines/base/fields/shown_unit.h"
 #include "pipelines/base/files/atomic_file.h"
 #include "pipelines/base/files/csv.h"
@@ -109,23 +108,12 @@ std::vector<Series> series_of(const kinetics::LoadHistory& loads, const BodyChan
   return all;
 }
 
-/// Bits of an effect's part of a channel: 1e-11 of it. What is beyond them is noise of sums.
-constexpr int part_bits = 36;
-
 /// Datasets by label and values.
 using WrittenSeries = std::map<std::tuple<std::string, std::string, std::vector<double>>, std::string>;
 
 /// One dataset has the names of all series that are equal, as where one effect alone makes a channel.
 void write_series(Hdf5Writer& out, Series& series, WrittenSeries& written) {
-  const bool is_part = series.path.rfind("/effects/", 0) == 0;
-  const auto there = [&] {
-    return written.find({series.label.unit, series.label.description, series.values});
-  };
-  auto found = there();
-  if (found == written.end() && is_part) {
-    for (double& value : series.values) value = with_significant_bits(value, part_bits);
-    found = there();
-  }
+  const auto found = written.find({series.label.unit, series.label.description, series.values});
   if (found != written.end()) return out.link(series.path, found->second);
   out.write(series.path, series.values.data(), {series.values.size()}, series.label,
             Hdf5Compression::deflate);
