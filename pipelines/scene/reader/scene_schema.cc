@@ -5,7 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "pipelines/scene/whole/body_kind.h"
+#include "pipelines/scene/whole/body_reader.h"
 #include "pipelines/scene/whole/machine_kind.h"
 
 namespace pipelines {
@@ -65,8 +65,8 @@ void add(SchemaNode& node, const SchemaNode& other) {
 void share_keys_of_bodies(SchemaNode& root) {
   SchemaNode all;
   std::vector<std::string> bodies;
-  for (const auto* kind : body_kinds())
-    for (const auto& name : kind->tables()) bodies.push_back(name);
+  for (const auto* reader : body_readers())
+    for (const auto& name : reader->tables()) bodies.push_back(name);
   for (const auto& name : bodies) add(all, root.keys[name]);
   for (const auto& name : bodies) root.keys[name] = all;
 }
