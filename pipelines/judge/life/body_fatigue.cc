@@ -295,6 +295,15 @@ double effective_diameter(const Responded& analysis) {
   return surface_m2 > 0 ? 4 * analysis.masses.volume_m3 / surface_m2 : 0;
 }
 
+/// Whether a feature is an edge that was rounded for its effective notch stress.
+bool is_rounded_weld(const meshes::BodyMesh& mesh, const std::string& feature) {
+  return std::any_of(mesh.features.begin(), mesh.features.end(), [&](const auto& of) {
+    return of.name == feature &&
+           std::any_of(mesh.notches.begin(), mesh.notches.end(),
+                       [&](const auto& notch) { return notch.boundary_id == of.boundary_id; });
+  });
+}
+
 /// Judges the place that is used most with the size of every kind of material of the group. Cycles are
 /// counted along the direction of the strength as given.
 void take_sizes(const Responded& analysis, const FatiguePlaces& search, const FatigueRules& rules,
@@ -414,8 +423,7 @@ BodyFatigue judge_fatigue(const Judged& analysis, const LoadPeriod& period, int 
   fatigue.zones.resize(zones.size());
   for_each_parallel(zones.size(), at_once, [&](std::size_t, std::size_t i) {
     const auto& surface = fatigue.cycles.nodes;
-    const bool is_judged = std::any_of(features.begin(), features.end(),
-                                       [&](const auto& of) { return of.first == zones[i].feature; });
+    const bool is_judged = !is_rounded_weld(analysis.mesh, zones[i].feature);
     fatigue.zones[i] =
         damage_of(zones[i], search, analysis, loads.history, rules, period,
                   is_judged && std::binary_search(surface.begin(), surface.end(), zones[i].peak_node));

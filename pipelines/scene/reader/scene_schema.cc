@@ -5,7 +5,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "pipelines/scene/whole/body_reader.h"
 #include "pipelines/scene/whole/machine_kind.h"
 
 namespace pipelines {
@@ -49,26 +48,6 @@ SchemaNode tree_of(const std::vector<KeyForms>& scenes) {
     for (const auto& name : scene.closed) node_at(root, name).is_closed = true;
   }
   return root;
-}
-
-void add(SchemaNode& node, const SchemaNode& other) {
-  for (const auto& form : other.forms)
-    if (std::find(node.forms.begin(), node.forms.end(), form) == node.forms.end()) node.forms.push_back(form);
-  for (const auto& [name, key] : other.keys) add(node.keys[name], key);
-  if (other.item && !node.item) node.item = std::make_shared<SchemaNode>();
-  if (other.item) add(*node.item, *other.item);
-  node.is_closed = node.is_closed || other.is_closed;
-}
-
-/// Which keys a body has depends on where its shape comes from, which no shipped scene shows in all its ways:
-/// each body has the keys of all.
-void share_keys_of_bodies(SchemaNode& root) {
-  SchemaNode all;
-  std::vector<std::string> bodies;
-  for (const auto* reader : body_readers())
-    for (const auto& name : reader->tables()) bodies.push_back(name);
-  for (const auto& name : bodies) add(all, root.keys[name]);
-  for (const auto& name : bodies) root.keys[name] = all;
 }
 
 Json quantity_schema(const KeyForm& form) {
@@ -126,9 +105,7 @@ Json table_schema(const SchemaNode& node) {
 
 std::string scene_schema(const std::vector<KeyForms>& scenes) {
   Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "Millstress scene"}};
-  auto root = tree_of(scenes);
-  share_keys_of_bodies(root);
-  schema.update(table_schema(root));
+  schema.update(table_schema(tree_of(scenes)));
   schema["required"] = {"machine"};
   auto& machine = schema["properties"]["machine"];
   machine["required"] = {"type"};

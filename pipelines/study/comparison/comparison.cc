@@ -86,8 +86,8 @@ std::vector<ComparedKey> differing_keys(const std::vector<ComparedRun>& runs) {
 std::string Difference::text() const {
   if (is_none) return "the same";
   const std::string which = absolute < 0 ? "smaller" : "larger";
-  if (least && std::isinf(*least) && std::isinf(*most))
-    return which + " by " + percent_text(*relative) + " %, without a stated error";
+  if (!is_stated)
+    return which + (relative ? " by " + percent_text(*relative) + " %" : "") + ", without a stated error";
   if (!is_told) return "no difference that the errors allow to tell";
   if (!relative) return which;
   const double below = std::abs(*relative - *least), above = std::abs(*most - *relative);
@@ -106,6 +106,10 @@ Difference difference(const FigureValue& a, const FigureValue& b) {
   Difference result;
   result.absolute = b.value - a.value;
   const double scale = std::max(std::abs(a.value), std::abs(b.value));
+  const auto is_bounded = [](const FigureValue& figure) {
+    return std::isfinite(figure.least) || std::isfinite(figure.most);
+  };
+  result.is_stated = is_bounded(a) && is_bounded(b);
   result.is_none = std::abs(result.absolute) <= rounding_of_runs * scale;
   result.is_told = !result.is_none && (b.least > a.most || b.most < a.least);
   if (a.value == 0) return result;

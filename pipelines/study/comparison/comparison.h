@@ -14,8 +14,9 @@ namespace pipelines {
 struct Difference {
   double absolute = 0;
   std::optional<double> relative, least, most;
-  bool is_none = false;  ///< both are the same number, or alike to rounding
-  bool is_told = false;  ///< the bounds of both do not meet
+  bool is_none = false;   ///< both are the same number, or alike to rounding
+  bool is_told = false;   ///< the bounds of both do not meet
+  bool is_stated = true;  ///< both figures have a bound
 
   /// "smaller by 12 +- 3 %", "larger by 110 % (12 to 260)", "the same", "no difference that the errors allow
   /// to tell", "larger by 2 %, without a stated error".

@@ -9,6 +9,7 @@
 #include "pipelines/judge/verdict/torsion_report.h"
 #include "pipelines/write/files/manifest.h"
 #include "pipelines/write/files/run_record.h"
+#include "pipelines/write/living/living_page.h"
 
 namespace pipelines {
 namespace {
@@ -57,7 +58,8 @@ OutputNames run_names(std::vector<std::string> bodies) {
 bool is_run_result(const std::string& name) {
   const auto [folder, file] = folder_and_file(name);
   if (folder.empty())
-    return contains({"summary.json", "loads.h5", "loads.csv", "duty.csv", run_record_name}, file);
+    return contains({"summary.json", living_data_name, "loads.h5", "loads.csv", "duty.csv", run_record_name},
+                    file);
   if (folder == torsion_folder && contains(torsion_files(), file)) return true;
   return folder.find('/') == std::string::npos && is_body_file(file);
 }

@@ -24,8 +24,9 @@ struct Eigenpairs {
 };
 
 Eigenpairs falling_eigenpairs(const MatrixXd& symmetric, double least_share) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(symmetric);
   const auto n = symmetric.rows();
+  if (n == 0) return {};
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(symmetric);
   const double limit = least_share * std::max(solver.eigenvalues()[n - 1], 0.0);
   Index n_kept = 0;
   while (n_kept < n && solver.eigenvalues()[n - 1 - n_kept] > limit) ++n_kept;
@@ -145,10 +146,9 @@ VectorXd steps_of(const UnitFields& fields, const AllModes& all, Index rank, dou
   return steps;
 }
 
-}  // namespace
-
-FieldModes field_modes(const UnitFields& fields, const std::vector<ArrayXXd>& sets, double tolerance,
-                       Index most) {
+/// @param fields, sets  of sizes about 1
+FieldModes modes_of(const UnitFields& fields, const std::vector<ArrayXXd>& sets, double tolerance,
+                    Index most) {
   const auto all = all_modes(fields, sets);
   FieldModes result;
   const auto available = all.modes.cols();
@@ -172,12 +172,31 @@ FieldModes field_modes(const UnitFields& fields, const std::vector<ArrayXXd>& se
   return result;
 }
 
+}  // namespace
+
+FieldModes field_modes(const UnitFields& fields, const std::vector<ArrayXXd>& sets, double tolerance,
+                       Index most) {
+  const auto size_of = [](double largest) { return largest > 0 ? largest : 1; };
+  double largest = 0;
+  for (const auto& set : sets) largest = std::max(largest, set.size() > 0 ? set.abs().maxCoeff() : 0);
+  const double set_size = size_of(largest),
+               field_size = size_of(fields.values.size() > 0 ? fields.values.cwiseAbs().maxCoeff() : 0);
+  UnitFields scaled = fields;  // squares of very large and very small numbers are none
+  scaled.values /= field_size;
+  auto scaled_sets = sets;
+  for (auto& set : scaled_sets) set /= set_size;
+  auto modes = modes_of(scaled, scaled_sets, tolerance / field_size / set_size, most);
+  modes.steps *= field_size;
+  modes.error *= field_size * set_size;
+  return modes;
+}
+
 double largest_length(const UnitFields& fields, const ArrayXXd& factors, Index stride) {
   double largest = 0;
   for (Index t = 0; t < factors.cols(); t += stride) {
     const VectorXd field = fields.values * factors.col(t).matrix();
     for (Index i = 0; i < fields.n_nodes(); ++i)
-      largest = std::max(largest, field.segment(i * fields.n_components, fields.n_components).norm());
+      largest = std::max(largest, field.segment(i * fields.n_components, fields.n_components).stableNorm());
   }
   return largest;
 }

@@ -10,6 +10,9 @@
 
 namespace pipelines {
 
+/// The file in which a run keeps it, so that its page can be made again.
+inline constexpr const char* living_data_name = "report.data";
+
 struct LivingPage {
   std::string keys;  ///< JSON; README.md of this room has its keys
   std::string data;  ///< sections of numbers (packed_block.h)

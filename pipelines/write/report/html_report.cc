@@ -366,7 +366,7 @@ std::string report_of(const std::filesystem::path& directory, const std::filesys
 }  // namespace
 
 std::string html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy) {
-  return report_of(directory, accuracy, living_of(file_text(directory / "report.html")));
+  return report_of(directory, accuracy, living_of(file_text(directory / living_data_name)));
 }
 
 bool is_html_report(const std::filesystem::path& file) {
@@ -379,6 +379,7 @@ bool is_html_report(const std::filesystem::path& file) {
 
 void write_html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy,
                        const LivingPage& living) {
+  if (!living.empty()) write_text_file(directory / living_data_name, living_elements(living));
   write_text_file(directory / "report.html", report_of(directory, accuracy, living));
 }
 

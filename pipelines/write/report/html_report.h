@@ -9,8 +9,8 @@
 namespace pipelines {
 
 /// The page, of summary.json, the bodies' pictures and, where `accuracy` has left them, its tables and
-/// charts; the pictures are inside it. What puts the stress together anew is that of the page that is there.
-/// The same files give the same bytes.
+/// charts; the pictures are inside it. What puts the stress together anew is in living_data_name. The
+/// same files give the same bytes.
 /// @param accuracy  the directory of those tables and charts
 /// @throws OptionError naming the file and the remedy if summary.json is missing or is not one
 std::string html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy);
@@ -18,7 +18,7 @@ std::string html_report(const std::filesystem::path& directory, const std::files
 /// Whether a file is such a page, of whatever results.
 bool is_html_report(const std::filesystem::path& file);
 
-/// Writes it beside the summary.
+/// Writes it beside the summary, and what puts the stress together anew beside it.
 /// @param living  of the run
 /// @throws as html_report; FileError if the page cannot be written
 void write_html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy,

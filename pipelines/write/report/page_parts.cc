@@ -63,14 +63,15 @@ std::string card(const std::string& name, const Json& body, const Json& verdict)
   }
   const char* colour = judgement == "OK" ? "ok" : judgement == "NOT OK" ? "not-ok" : "not-judged";
   return fmt::format(
-      "<div class=\"card\" data-body=\"{0}\"><p class=\"of\"><b>{0}</b><span class=\"pill "
+      "<div class=\"card\" data-body=\"{0}\"><p class=\"of\"><strong>{0}</strong><span class=\"pill "
       "{1}\">{2}</span></p>"
       "<p class=\"figure\">{3} <small>{4} MPa</small></p>{5}<p>{6}{7}</p>{8}</div>\n",
       text_of(name), colour, text_of(judgement), megapascals(stress_Pa),
       total.is_number() ? "± " + megapascals(error_Pa) : "",
       strength.is_number() && strength.get<double>() > 0 ? bar(stress_Pa, error_Pa, strength.get<double>())
                                                          : "",
-      safety.is_number() ? fmt::format("<b>Safety {:.2f}</b> against yield, ", safety.get<double>()) : "",
+      safety.is_number() ? fmt::format("<strong>Safety {:.2f}</strong> against yield, ", safety.get<double>())
+                         : "",
       text_of(governing.at("name").get<std::string>() + " at " + governing.at("feature").get<std::string>()),
       findings);
 }

@@ -25,6 +25,7 @@ std::vector<WritingCommand> writing_commands() {
             "summary.json",
             "run.json",
             "report.html",
+            "report.data",
             "loads.h5",
             "loads.csv",
             "duty.csv",

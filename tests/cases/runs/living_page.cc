@@ -239,7 +239,8 @@ TEST(LivingPage, ShowsEveryModelOfAShaft) {
   for (const std::string method : {"beam", "axisymmetric", "solid"}) {
     const auto outcome =
         millstress(directory.path,
-                   "run shaft.toml --set shaft.natural_frequencies=0 --method " + method + " -o " + method);
+                   "run shaft.toml --set shaft.natural_frequencies=0 --set results.snapshots=4 --method " +
+                       method + " -o " + method);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const Json points{expected_of(directory / method, "shaft", 3, Json::array())};
     const auto found = checked(directory.path, directory / method / "report.html",

@@ -60,6 +60,7 @@ TEST(Runs, RepeatBitByBitFreshAndReused) {
   const auto first = contents(directory / "first");
   const auto second = contents(directory / "second");
   const std::set<std::string> wanted{"loads.h5",
+                                     "report.data",
                                      "summary.json",
                                      "manifest.json",
                                      "run.json",
@@ -198,7 +199,8 @@ TEST(Runs, BrokenUnitResponsesAreSolvedAgain) {
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(again.err.rfind("millstress: " + file.string() + ": is damaged", 0), 0u) << again.err;
   // The summary and the page have the warning; the next run does not.
-  const std::set<std::string> with_warning{"summary.json", "report.html", "loads.h5", "manifest.json"};
+  const std::set<std::string> with_warning{"summary.json", "report.html", "report.data", "loads.h5",
+                                           "manifest.json"};
   for (const auto& [name, bytes] : contents(directory / "out"))
     EXPECT_TRUE(with_warning.count(name) == 1 || bytes == whole.at(name)) << name;
   const auto warnings = summary(directory / "out")["warnings"].dump();

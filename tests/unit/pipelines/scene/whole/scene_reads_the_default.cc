@@ -147,7 +147,7 @@ TEST(default_scene, CoversThePeriodAndWarnsOfNothing) {
   EXPECT_EQ(scene.sampling.instants_per_turn, 120);
   EXPECT_EQ(scene.zones.reference, pipelines::ZoneRule::Reference::peak);
   EXPECT_EQ(scene.zones.share, 0.5);
-  EXPECT_EQ(scene.snapshots, 24);
+  EXPECT_EQ(scene.snapshots, 12);
   ASSERT_TRUE(scene.milling_space);
   expect_same(scene.milling_space->inner_radius_m, 0.13);
   EXPECT_EQ(scene.warnings.size(), 0u);
@@ -166,7 +166,7 @@ TEST(scene, RecordsTheDefaultsThatItTakes) {
   EXPECT_TRUE(has_default(scene, "sampling.turns", "20")) << "the period, from the turn ratio";
   EXPECT_TRUE(has_default(scene, "sampling.instants_per_turn", "120"));
   EXPECT_TRUE(has_default(scene, "zones.level", "\"50 % of peak\""));
-  EXPECT_TRUE(has_default(scene, "results.snapshots", "24"));
+  EXPECT_TRUE(has_default(scene, "results.snapshots", "12"));
   EXPECT_TRUE(has_default(scene, "shaft.mesh.sectors", "16"));
   EXPECT_EQ(scene.sampling.turns, 20);
   EXPECT_EQ(scene.vibratory_mill().charge_initial_angle_rad, 0);
