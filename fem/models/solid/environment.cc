@@ -2,6 +2,7 @@
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/types.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -41,6 +42,8 @@ void begin_alone_quickly() {
     setenv(name, value, 0);
 }
 
+std::atomic<bool> is_left{false};
+
 bool mpi_runs() {
   int started = 0;
   MPI_Initialized(&started);
@@ -66,7 +69,13 @@ Environment::Environment(int n_threads) {
   reserve_blas_memory(Environment::n_threads());
 }
 
-Environment::~Environment() = default;
+Environment::~Environment() {
+  if (is_left) static_cast<void>(impl_.release());
+}
+
+void Environment::leave_mpi() {
+  is_left = true;
+}
 
 int Environment::n_threads() {
   return static_cast<int>(dealii::MultithreadInfo::n_threads());

@@ -31,6 +31,8 @@ public:
   Environment(const Environment&) = delete;
   /// Threads of this rank.
   static int n_threads();
+  /// MPI is not ended in this process, whose end does that: for a library that its end would crash.
+  static void leave_mpi();
   Environment& operator=(const Environment&) = delete;
 
 private:

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <functional>
 #include <numeric>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
+#include "fem/models/solid/model.h"
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/disk/open_directory.h"
 
@@ -94,15 +93,8 @@ void no_lock(hid_t list, const std::string& file) {
   if (H5Pset_file_locking(list, false, true) < 0) fail(file, "", "cannot switch file locking off");
 }
 
-/// The library leaves a file open that a full disk keeps from being closed, and crashes when MPI ends. In
-/// memory nothing fails, and the bytes are written at once when all are there.
-void hold_in_memory(hid_t list, const std::string& file) {
-  constexpr std::size_t step_bytes = 1 << 20;
-  if (H5Pset_fapl_core(list, step_bytes, false) < 0) fail(file, "", "cannot be made in memory");
-}
-
 /// A file that could not be closed, because the disk is full, crashes the library's own clean-up when the
-/// program ends; it has nothing else to do then. Only the first call of the library can switch it off.
+/// program or MPI ends; it has nothing else to do then. Only the first call of the library can switch it off.
 void print_nothing() {
   static const herr_t without_clean_up = H5dont_atexit();
   static_cast<void>(without_clean_up);
@@ -256,14 +248,12 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& file) : file_(file.string())
   keep_order(creation, file_);
   use_format(access, creation, file_);
   no_lock(access, file_);
-  hold_in_memory(access, file_);
   id_ = H5Fcreate(file_.c_str(), H5F_ACC_TRUNC, creation, access);
-  if (id_ < 0 || !std::ofstream(file_, std::ios::binary | std::ios::trunc))
-    fail(file_, "", "cannot be created");
+  if (id_ < 0) fail(file_, "", "cannot be created");
 }
 
 Hdf5Writer::~Hdf5Writer() {
-  if (id_ >= 0) H5Fclose(id_);
+  if (id_ >= 0 && H5Fclose(id_) < 0) fem::Environment::leave_mpi();
 }
 
 void Hdf5Writer::write(const std::string& object, const double* values, const std::vector<std::size_t>& shape,
@@ -328,16 +318,11 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, d
 }
 
 void Hdf5Writer::close() {
-  if (id_ < 0) return;
-  const auto refuse = [&] { fail(file_, "", "cannot be written completely; check the free space"); };
-  const ssize_t size = H5Fflush(id_, H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(id_, nullptr, 0);
-  std::vector<char> bytes(std::size_t(std::max<ssize_t>(size, 0)));
-  if (size < 0 || H5Fget_file_image(id_, bytes.data(), bytes.size()) < 0) refuse();
-  H5Fclose(std::exchange(id_, -1));
-  std::ofstream out(file_, std::ios::binary | std::ios::trunc);
-  out.write(bytes.data(), std::streamsize(bytes.size()));
-  out.close();
-  if (!out) refuse();
+  const hid_t id = id_;
+  id_ = -1;
+  if (id < 0 || H5Fclose(id) >= 0) return;
+  fem::Environment::leave_mpi();
+  fail(file_, "", "cannot be written completely; check the free space");
 }
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : file_(file.string()) {
