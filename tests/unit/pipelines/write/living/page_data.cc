@@ -135,7 +135,7 @@ TEST(FactorSignals, TurnPressureWithTheForceThatIsLeft) {
   const auto signals = factor_signals(both);
   ASSERT_EQ(signals.laws.size(), 1u);
   std::string trouble;
-  const auto change = signals_of(signals, both, both, trouble) - signals_of(signals, both, left, trouble);
+  const ArrayXXd change = signals_of(signals, both, both, trouble) - signals_of(signals, both, left, trouble);
   const auto factors = signals.factors(signals_of(signals, both, both, trouble) - change);
   EXPECT_EQ(trouble, "");
   EXPECT_LT((factors - left.history.values).abs().maxCoeff(), 1e-12);
