@@ -94,7 +94,7 @@ enum class Keep {
 
 struct Scene {
   std::filesystem::path file;
-  std::vector<std::string> settings;  ///< "KEY=VALUE" of the command line, which the file does not have
+  std::vector<std::string> settings;        ///< "KEY=VALUE" of the command line, which the file does not have
   std::map<std::string, std::string> keys;  ///< every value as a text by its key, settings included
   std::string title;
   std::string machine_origin;   ///< "file:line:column: machine", named by errors that come after reading

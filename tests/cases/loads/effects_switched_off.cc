@@ -27,7 +27,8 @@ TEST(EffectsSwitchedOff, LeaveNoColumnAndNoUnitLoad) {
                                      {"  \"debalance_inertia\",", ""},
                                      {"  \"gravity_shaft\", \"shaft_inertia\",", "  \"gravity_shaft\","}}));
   for (const char* name : {"all", "without"}) {
-    const auto run = millstress(directory.path, std::string("run ") + name + ".toml --set results.keep=all -o " + name);
+    const auto run =
+        millstress(directory.path, std::string("run ") + name + ".toml --set results.keep=all -o " + name);
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
   const auto all = names(summary(directory / "all")["bodies"]["shaft"]["channels"]);

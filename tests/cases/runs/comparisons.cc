@@ -62,7 +62,7 @@ TEST_F(Comparisons, OfOneKeyNameItAndWhatSingleRunsSay) {
 
 TEST_F(Comparisons, RunScenesAndWriteTheirFiles) {
   write(directory_ / "b.toml", edited("shaft.toml", {{"pictures = true", "pictures = false"},
-                                                {"diameter = \"42 mm\"", "diameter = \"43 mm\""}}));
+                                                     {"diameter = \"42 mm\"", "diameter = \"43 mm\""}}));
   const auto outcome = millstress(directory_, "compare a b.toml --method beam --tolerance none -o both");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("A: a: "), std::string::npos);

@@ -82,8 +82,7 @@ TEST(VerdictLeadsThePage, OnTheFirstScreenAndTheFirstPrintedPage) {
   SKIP_WITHOUT("chromium");
   SKIP_WITHOUT("pdftotext");
   const results_test::Directory directory;
-  if (!has_browser(directory.path))
-    GTEST_SKIP() << "skipped: chromium does not start in this system";
+  if (!has_browser(directory.path)) GTEST_SKIP() << "skipped: chromium does not start in this system";
   const auto json = of_two_bodies(run_small(directory.path, unsound_shaft()));
   std::vector<Json> findings;
   for (const auto& part : json["verdict"]["parts"])

@@ -27,8 +27,7 @@ const std::string summary_text =
         "hash": "1", "machine": "load_table", "turns": 1, "instants_per_turn": 24}, "warnings": [],
         "loads": {}, "bodies": {}})";
 
-const RunRecord record{
-    "key", {{"shaft", text_hash("responses")}}, {"no picture: why"}, "\n a table\n  b\n"};
+const RunRecord record{"key", {{"shaft", text_hash("responses")}}, {"no picture: why"}, "\n a table\n  b\n"};
 
 void publish(const fs::path& directory, const RunRecord& content) {
   StagedResults staged(directory, run_names({"shaft"}));
