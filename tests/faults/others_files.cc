@@ -25,9 +25,8 @@ std::string hash_of(const std::string& text) {
 /// A manifest that lists one file, with every checksum as it has to be.
 std::string manifest_of(const std::string& name, const std::string& text) {
   const nlohmann::ordered_json files{{name, {{"bytes", text.size()}, {"xxh3_128", hash_of(text)}}}};
-  const nlohmann::ordered_json json{{"program", {{"name", "millstress"}, {"version", "0"}}},
-                                    {"files", files},
-                                    {"checksum", hash_of(files.dump())}};
+  nlohmann::ordered_json json{{"program", {{"name", "millstress"}, {"version", "0"}}}, {"files", files}};
+  json["checksum"] = hash_of(json.dump());
   return json.dump(2) + "\n";
 }
 

@@ -23,11 +23,10 @@ std::string text_of_manifest(const ManifestJson& json) {
   return json.dump(2, ' ', false, ManifestJson::error_handler_t::replace) + "\n";
 }
 
-/// Checksum of all but itself. Manifests that do not say of what they are have that of their list alone.
+/// Checksum of all but itself.
 std::string checksum_of(ManifestJson json) {
   json.erase("checksum");
-  const auto& covered = json.contains("of") ? json : json.at("files");
-  return text_hash(covered.dump(-1, ' ', false, ManifestJson::error_handler_t::replace));
+  return text_hash(json.dump(-1, ' ', false, ManifestJson::error_handler_t::replace));
 }
 
 /// A damaged or malicious list must not lead out of the directory, nor to what this program never writes.
