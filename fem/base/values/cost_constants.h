@@ -28,6 +28,9 @@ inline constexpr double factor_s_per_entry = 2.3e-10, factor_s_per_response = 2.
 inline constexpr double iteration_steps = 10, iteration_steps_per_aspect = 0.5;
 inline constexpr double iteration_s_per_dof = 3.3e-6;  // of each step and load
 inline constexpr double iteration_setup_s_per_dof = 3e-5, iteration_bytes_per_dof = 5700;
+// MUMPS' factor of the lower level, of unknowns of the upper one to 4/3: 2.39 GB of 1.5 M on the benchmark
+// shaft, 2026-11-29, `-fem_ksp_view`.
+inline constexpr double lower_factor_bytes = 14;
 
 // A run beside the solver: the program; for each unknown the mesh, and for each load its vectors.
 inline constexpr double program_bytes = 2e8, grid_bytes_per_dof = 40, load_bytes_per_dof = 16;

@@ -38,9 +38,8 @@ BalancedLoads balance(const RigidBalance& rigid, const std::vector<std::int64_t>
 /// Rounding alone leaves eps |K| |u| / |f|, up to 1e-9 in slender bodies: refinement cannot go below that.
 inline constexpr double acceptable_residual = 1e-8;
 
-/// Displacements of the loads, with any rigid motion.
-struct Solution {
-  Eigen::MatrixXd displacement;
+/// What is told of a solution.
+struct SolutionFigures {
   double residual = 0;          ///< largest |K u - f| / |f|
   double rounding = 0;          ///< as SolverReport
   double support_reaction = 0;  ///< largest, over the load vector's largest entry; 0 without supports
@@ -48,8 +47,12 @@ struct Solution {
   FactorSize factor{};
   double bytes = 0;  ///< taken by the solver
   int n_iterations = 0;
-  bool is_even = false;           ///< found on one half of the body, of which the other is the mirror image
-  std::vector<RankWork> ranks{};  ///< as SolverReport
+  bool is_even = false;  ///< found on one half of the body, of which the other is the mirror image
+};
+
+struct Solution : SolutionFigures {
+  Eigen::MatrixXd displacement{};  ///< of the loads, with any rigid motion
+  std::vector<RankWork> ranks{};   ///< as SolverReport
 };
 
 }  // namespace fem

@@ -231,9 +231,9 @@ std::shared_ptr<SharedRows> share_rows(MPI_Comm communicator, const Grid& grid,
 }
 
 RankPart::RankPart(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic, int of_rank,
-                   int n_ranks)
+                   int n_ranks, double cells_of_first)
     : rank(of_rank),
-      rank_of_cell(deal_out_cells(grid, n_ranks)),
+      rank_of_cell(deal_out_cells(grid, n_ranks, cells_of_first)),
       rank_of_node(ranks_of_nodes(grid, rank_of_cell)),
       share(share_of_rank(grid, cells, rank_of_cell, rank, elastic)),
       n_unknowns(n_unknowns_of_rank(grid, rank_of_node, rank)) {

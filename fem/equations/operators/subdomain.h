@@ -65,7 +65,9 @@ StiffnessShare share_of_rank(const Grid& grid, const CellsOfNodes& cells_of_node
 
 /// What a rank has of a body. All ranks have the mesh, and deal its cells out alike.
 struct RankPart {
-  RankPart(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic, int rank, int n_ranks);
+  /// @param cells_of_first  of rank 0, to one of each other rank's (deal_out_cells)
+  RankPart(const Grid& grid, const CellsOfNodes& cells, const PerCell<Lame>& elastic, int rank, int n_ranks,
+           double cells_of_first = 1);
 
   int rank;
   std::vector<int> rank_of_cell, rank_of_node;

@@ -28,18 +28,20 @@ void split(const Centres& centre, std::int32_t* begin, std::int32_t* middle, std
   });
 }
 
-/// @param share  of each cell: `first` to last - 1 are given to these cells
-void deal_out(const Centres& centre, std::int32_t* begin, std::int32_t* end, int first, int last,
-              std::vector<int>& share) {
+/// @param weight  of each share
+/// @param share   of each cell: `first` to last - 1 are given to these cells
+void deal_out(const Centres& centre, const std::vector<double>& weight, std::int32_t* begin,
+              std::int32_t* end, int first, int last, std::vector<int>& share) {
   if (last - first == 1) {
     for (const auto* cell = begin; cell != end; ++cell) share[std::size_t(*cell)] = first;
     return;
   }
   const int between = (first + last) / 2;
-  auto* middle = begin + std::lround(double(between - first) / double(last - first) * double(end - begin));
+  const auto sum = [&](int from, int to) { return std::accumulate(&weight[from], &weight[0] + to, 0.0); };
+  auto* middle = begin + std::lround(sum(first, between) / sum(first, last) * double(end - begin));
   if (middle != end) split(centre, begin, middle, end);
-  deal_out(centre, begin, middle, first, between, share);
-  deal_out(centre, middle, end, between, last, share);
+  deal_out(centre, weight, begin, middle, first, between, share);
+  deal_out(centre, weight, middle, end, between, last, share);
 }
 
 Centres corner_sums(const Grid& grid) {
@@ -52,11 +54,13 @@ Centres corner_sums(const Grid& grid) {
 
 }  // namespace
 
-std::vector<int> deal_out_cells(const Grid& grid, int n_shares) {
+std::vector<int> deal_out_cells(const Grid& grid, int n_shares, double first) {
   std::vector<std::int32_t> cell(grid.n_cells());
   std::iota(cell.begin(), cell.end(), 0);
   std::vector<int> share(cell.size(), 0);
-  deal_out(corner_sums(grid), cell.data(), cell.data() + cell.size(), 0, n_shares, share);
+  std::vector<double> weight(std::size_t(n_shares), 1.0);
+  weight[0] = first;
+  deal_out(corner_sums(grid), weight, cell.data(), cell.data() + cell.size(), 0, n_shares, share);
   return share;
 }
 

@@ -30,12 +30,13 @@ constexpr auto two_levels =
     "-fem_mg_levels_ksp_type chebyshev -fem_mg_levels_ksp_max_it 4 "
     "-fem_mg_levels_pc_type bjacobi -fem_mg_levels_sub_pc_type icc -fem_mg_coarse_ksp_type preonly ";
 constexpr auto on_one_rank = "-fem_mg_coarse_pc_type cholesky -fem_mg_coarse_pc_factor_mat_solver_type mumps";
-/// MUMPS on several ranks adds up in another order in each run: there every rank has the whole coarse factor.
+/// MUMPS on several ranks adds up in another order in each run: there the first rank has the coarse factor.
 /// Incomplete factors of the ranks know nothing of each other, which a smoother of degree 5 makes up for.
 constexpr auto on_several_ranks =
     "-fem_mg_levels_ksp_max_it 5 "
-    "-fem_mg_coarse_pc_type redundant -fem_mg_coarse_redundant_pc_type cholesky "
-    "-fem_mg_coarse_redundant_pc_factor_mat_solver_type mumps";
+    "-fem_mg_coarse_pc_type telescope -fem_mg_coarse_telescope_ksp_type preonly "
+    "-fem_mg_coarse_telescope_pc_type cholesky -fem_mg_coarse_telescope_pc_factor_mat_solver_type mumps "
+    "-fem_mg_coarse_pc_telescope_reduction_factor ";
 
 /// To which what an iteration leaves is solved for. It is alike all over the body, where rounding of a factor
 /// goes with the stress: what is told has to hold where a twentieth of the largest stress is, too.
@@ -68,6 +69,21 @@ double entries(const PetscSession& petsc, Mat matrix) {
   MatInfo info{};
   petsc.check(MatGetInfo(matrix, MAT_LOCAL, &info));
   return info.nz_used;
+}
+
+/// Of the lower level's factor on this rank; none where the user has options of another kind.
+double bytes_of_lower_factor(const PetscSession& petsc, KSP lower) {
+  PC solver = nullptr;
+  PetscBool is_telescope = PETSC_FALSE, is_factor = PETSC_FALSE;
+  petsc.check(KSPGetPC(lower, &solver));
+  petsc.check(PetscObjectTypeCompare(PetscObject(solver), PCTELESCOPE, &is_telescope));
+  if (is_telescope) petsc.check(PCTelescopeGetKSP(solver, &lower));
+  if (lower == nullptr) return 0;
+  petsc.check(KSPGetPC(lower, &solver));
+  petsc.check(PetscObjectTypeCompare(PetscObject(solver), PCCHOLESKY, &is_factor));
+  Mat factor = nullptr;
+  if (is_factor) petsc.check(PCFactorGetMatrix(solver, &factor));
+  return is_factor ? 8 * entries(petsc, factor) : 0;
 }
 
 /// One column of a matrix as PETSc sees it.
@@ -175,8 +191,8 @@ struct PetscSolver::Impl {
   MPI_Comm communicator() const { return body.communicator; }
   Eigen::Index n_rows() const { return 3 * Eigen::Index(plan.own.size()); }
   std::string options() const {
-    const bool is_alone = n_ranks(communicator()) == 1;
-    return std::string(two_levels) + (is_alone ? on_one_rank : on_several_ranks) +
+    const int n = n_ranks(communicator());
+    return two_levels + (n == 1 ? on_one_rank : on_several_ranks + std::to_string(n)) +
            petsc_options_of_user(prefix);
   }
 
@@ -312,16 +328,16 @@ void PetscSolver::Impl::make_levels(const PetscSession& petsc) {
   petsc.check(PCSetType(levels, PCMG));
   petsc.check(PCMGSetLevels(levels, 2, nullptr));
   petsc.check(PCMGSetInterpolation(levels, 1, interpolation.object));
-  KSP of_level = nullptr;
-  petsc.check(PCMGGetCoarseSolve(levels, &of_level));
-  petsc.check(KSPSetOperators(of_level, coarse.object, coarse.object));
-  petsc.check(PCMGGetSmoother(levels, 1, &of_level));
-  petsc.check(KSPSetOperators(of_level, stiffness.object, stiffness.object));
+  KSP lower = nullptr, smoother = nullptr;
+  petsc.check(PCMGGetCoarseSolve(levels, &lower));
+  petsc.check(KSPSetOperators(lower, coarse.object, coarse.object));
+  petsc.check(PCMGGetSmoother(levels, 1, &smoother));
+  petsc.check(KSPSetOperators(smoother, stiffness.object, stiffness.object));
   petsc.check(KSPSetFromOptions(*ksp));
   petsc.check(KSPMonitorSet(*ksp, stop_in_time, &is_time_up, nullptr));
   petsc.check(KSPSetUp(*ksp));
   constexpr double incomplete_factor = 6;  // bytes for each entry of K: one triangle
-  bytes += incomplete_factor * entries(petsc, stiffness.object) +
+  bytes += incomplete_factor * entries(petsc, stiffness.object) + bytes_of_lower_factor(petsc, lower) +
            12 * (entries(petsc, interpolation.object) + entries(petsc, coarse.object));
 }
 

@@ -17,9 +17,7 @@ namespace {
 /// What rank 0 tells of its solution by halves, beside displacements.
 struct Told {
   bool is_solved = false;
-  double residual = 0, rounding = 0, support_reaction = 0, factor_gigabytes = 0, bytes = 0;
-  FactorSize factor{};
-  bool is_even = false;
+  SolutionFigures figures{};
 };
 
 /// Places of some nodes among others, both ascending.
@@ -83,26 +81,13 @@ std::optional<Solution> factorise_halves(const BodyOnRanks& body, const Mirrored
     } catch (const DoesNotFit&) {
       return;
     }
-    told = {true,
-            solution.residual,
-            solution.rounding,
-            solution.support_reaction,
-            solution.factor_gigabytes,
-            solution.bytes,
-            solution.factor,
-            solution.is_even};
+    told = {true, solution};
   });
   take_from_first(body.communicator, &told, sizeof told);
   if (!told.is_solved) return std::nullopt;
   solution.displacement =
       from_first(body.grid, part, solution.displacement, loads.force.cols(), body.communicator);
-  solution.residual = told.residual;
-  solution.rounding = told.rounding;
-  solution.support_reaction = told.support_reaction;
-  solution.factor_gigabytes = told.factor_gigabytes;
-  solution.bytes = told.bytes;
-  solution.factor = told.factor;
-  solution.is_even = told.is_even;
+  static_cast<SolutionFigures&>(solution) = told.figures;
   return solution;
 }
 
@@ -149,19 +134,28 @@ PartSolution solve_on_ranks(const BodyOnRanks& body, const HalfOfBody& half,
                             const std::function<BalancedLoads(const RankPart&)>& loads, SolverChoice choice,
                             const StepReport& progress, SolverReport& report,
                             std::shared_ptr<const FactorisedBody>* kept) {
-  PartSolution found{
-      RankPart(body.grid, body.cells, body.elastic, this_rank(body.communicator), n_ranks(body.communicator)),
-      {}};
-  const auto of_part = loads(found.part);
-  const auto solve_by = [&](Solver solver) {
-    choice.solver = solver;
+  const int n = n_ranks(body.communicator);
+  const auto part = [&] {
+    const double cells_of_first =
+        report.used == Solver::iterative ? cells_of_first_rank(body.grid.n_unknowns(), n) : 1;
+    return RankPart(body.grid, body.cells, body.elastic, this_rank(body.communicator), n, cells_of_first);
+  };
+  PartSolution found{part(), {}};
+  auto of_part = loads(found.part);
+  const auto deal_anew = [&] {
+    found.part = part();
+    of_part = loads(found.part);
+  };
+  const auto solve = [&] {
+    choice.solver = report.used;
     found.solution = solve_together(body, found.part, of_part, choice, progress, kept);
   };
   if (report.used == Solver::iterative) try {
-      solve_by(Solver::iterative);
+      solve();
       return found;
     } catch (const FailedTogether& error) {
       turn_to_factor(error.what(), report);
+      deal_anew();
     }
   if (half() != nullptr)
     if (auto solution = factorise_halves(body, *half(), found.part, of_part, progress, kept)) {
@@ -170,11 +164,12 @@ PartSolution solve_on_ranks(const BodyOnRanks& body, const HalfOfBody& half,
     }
   const bool may_turn = may_turn_to_iteration(choice, report);
   try {
-    solve_by(Solver::direct);
+    solve();
   } catch (const DoesNotFit&) {
     if (!may_turn) throw;
     turn_to_iteration(body.grid.n_unknowns(), memory_of_all_machines(body.communicator), report);
-    solve_by(Solver::iterative);
+    deal_anew();
+    solve();
   }
   return found;
 }

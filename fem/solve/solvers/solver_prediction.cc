@@ -77,6 +77,13 @@ SolverCost predict_iterative(std::size_t n_dofs, std::size_t n_loads, double asp
           n * cost::iteration_bytes_per_dof};
 }
 
+double cells_of_first_rank(std::size_t n_dofs, int n_ranks) {
+  const double n = double(n_dofs), all = predict_iterative(n_dofs, 1, 1).bytes,
+               factor = std::min(cost::lower_factor_bytes * std::pow(n, 4.0 / 3), all / 2),
+               first = all / n_ranks - factor, other = (all - factor - first) / (n_ranks - 1);
+  return n_ranks == 1 ? 1 : std::max(0.05, first / other);
+}
+
 double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads) {
   return cost::program_bytes +
          double(n_dofs) * (cost::grid_bytes_per_dof + cost::load_bytes_per_dof * double(n_loads));

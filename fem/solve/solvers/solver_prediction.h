@@ -32,6 +32,10 @@ FactorSize scaled(const FactorSize& factor, std::size_t n_dofs);
 /// @param aspect  largest_aspect
 SolverCost predict_iterative(std::size_t n_dofs, std::size_t n_loads, double aspect);
 
+/// Cells of rank 0 to one of each other rank's, so that rank 0, which has the factor of the iteration's lower
+/// level, needs no more memory than they do; at least a twentieth.
+double cells_of_first_rank(std::size_t n_dofs, int n_ranks);
+
 /// Memory of a run beside the solver's own: mesh, loads and displacements [bytes].
 double bytes_beside_solver(std::size_t n_dofs, std::size_t n_loads);
 

@@ -68,4 +68,18 @@ TEST(StiffnessRows, KeepTheDiagonalOfHeldUnknowns) {
   EXPECT_EQ(product(grid, 2, x, {held})[held], 0) << "its row";
 }
 
+// Turns red: the first share as large as the others, or parts of a share by the number of shares alone.
+TEST(DealOutCells, TheFirstShareHasWhatIsAskedAndTheOthersAreAlike) {
+  const auto grid = refined_rod();
+  for (const int n : {2, 3, 4, 7})
+    for (const double first : {1.0, 0.4, 0.05}) {
+      std::vector<double> cells(std::size_t(n), 0.0);
+      for (const int share : fem::deal_out_cells(grid, n, first)) ++cells[std::size_t(share)];
+      const double each = double(grid.n_cells()) / (first + n - 1);
+      const double rounding = 2;  // half a cell at each of at most four halvings
+      EXPECT_NEAR(cells[0], first * each, rounding) << n << " shares";
+      for (int share = 1; share < n; ++share) EXPECT_NEAR(cells[std::size_t(share)], each, rounding);
+    }
+}
+
 }  // namespace
