@@ -23,15 +23,14 @@
 #include "pipelines/base/files/whole_file.h"
 #include "pipelines/base/names/name_lists.h"
 #include "pipelines/base/names/typography.h"
+#include "pipelines/command/commands/run_picture.h"
 #include "pipelines/command/commands/run_results.h"
 #include "pipelines/command/options/option_value.h"
 #include "pipelines/command/options/result_place.h"
 #include "pipelines/command/options/scene_options.h"
 #include "pipelines/judge/analysis/error_text.h"
-#include "pipelines/judge/analysis/exclusion_border.h"
 #include "pipelines/judge/analysis/governing_stress.h"
 #include "pipelines/judge/analysis/judged.h"
-#include "pipelines/judge/texts/life_text.h"
 #include "pipelines/judge/verdict/torsion_report.h"
 #include "pipelines/judge/verdict/verdict_text.h"
 #include "pipelines/loads/channels/load_files.h"
@@ -46,13 +45,11 @@
 #include "pipelines/search/loop/duty_run.h"
 #include "pipelines/search/loop/scene_run.h"
 #include "pipelines/study/accuracy/cost_forecast.h"
-#include "pipelines/write/files/envelope_files.h"
 #include "pipelines/write/files/results.h"
 #include "pipelines/write/files/run_record.h"
 #include "pipelines/write/files/staged_results.h"
 #include "pipelines/write/parts/duty_report.h"
 #include "pipelines/write/parts/fatigue_report.h"
-#include "pipelines/write/pictures/picture.h"
 #include "pipelines/write/report/html_report.h"
 #include "pipelines/write/report/summary.h"
 
@@ -66,58 +63,6 @@ struct RunCommandOptions : WantedRun {
   bool strict = false;          ///< a verdict of NOT OK is a failure
   bool with_responses = false;  ///< unit responses are needed beside the results
 };
-
-const std::vector<DutyPlace>* places_of(const DutyResult& duty, const std::string& body) {
-  const auto found = duty.places.find(body);
-  return found == duty.places.end() ? nullptr : &found->second;
-}
-
-/// The weld toes that last least, each by its row in the terminal's ranking and its life: over all operating
-/// blocks, or without blocks in the scene's own running; none where the scene does not ask for fatigue.
-void note_lives_of_toes(const Judged& analysis, const DutyResult* duty, PictureOptions& options) {
-  constexpr std::size_t most = 4;
-  const auto note = [&](std::size_t row, const std::array<double, 3>& toe_m,
-                        const std::optional<double>& life_s, const LifeCertainty& certainty) {
-    const bool may_end = life_s || (certainty.range && certainty.range->least_s);
-    if (may_end && options.notes.size() < most)
-      options.notes.push_back({toe_m, fmt::format("{}: {}", row + 1, life_text(life_s, certainty))});
-  };
-  if (!analysis.fatigue) return;
-  if (const auto places = duty == nullptr ? nullptr : places_of(*duty, analysis.scene.name)) {
-    options.notes_are = "weld toes by rank,\nlives over all blocks";
-    for (std::size_t i = 0; i < places->size(); ++i)
-      if ((*places)[i].is_weld) note(i, (*places)[i].position_m, (*places)[i].life_s, (*places)[i].certainty);
-    return;
-  }
-  options.notes_are = "weld toes by rank, lives";
-  const auto& welds = analysis.fatigue->welds;
-  for (std::size_t i = 0; i < welds.size(); ++i) note(i, welds[i].toe_m, welds[i].life_s, welds[i].certainty);
-}
-
-/// The envelope as a picture that marks the governing stress; a machine that cannot draw gets a line instead.
-/// @param envelope  the .vtu
-/// @param verdict   on the body
-/// @return the line; empty if it is drawn
-std::string draw(const std::filesystem::path& envelope, const std::filesystem::path& directory,
-                 const std::string& title, const std::string& verdict, const Judged& analysis,
-                 const DutyResult* duty) {
-  const auto stress = governing_stress(analysis);
-  PictureOptions options;
-  options.scale = 1e-6;
-  options.excluded = excluded_field;
-  options.beyond = beyond_field;
-  if (const double border_Pa = largest_at_border_Pa(analysis); border_Pa > 0)
-    options.excluded_is =
-        fmt::format("left out beside sharp edges,\n{} MPa at its border", fixed(border_Pa / 1e6, 1));
-  options.mark = PictureMark{stress.position_m, fmt::format("{}\n{} {} MPa\n{}", verdict, stress.name(),
-                                                            fixed(stress.value_Pa / 1e6, 1), stress.place)};
-  note_lives_of_toes(analysis, duty, options);
-  return write_picture(envelope, pictured_field(analysis),
-                       title + ", " + analysis.scene.name + ": largest von Mises stress over the cycle",
-                       "MPa", directory / "envelope.png", options)
-             ? ""
-             : "no picture: " + why_nothing_draws() + "; envelope.vtu opens in ParaView";
-}
 
 /// What is asked for, and where the results go.
 struct Request {
@@ -289,27 +234,6 @@ void warn_of_damage(SceneRun& run) {
     for (const auto& text : analysis.warnings) warn(run.loaded.loads, text);
 }
 
-/// "NOT OK: welds at web 2, lower edge"
-std::string verdict_on(const SceneRun& run, const std::string& body, const DutyResult* duty) {
-  const auto verdict =
-      judge({run.loaded.scene, run.loaded.loads, run.analyses, {}, {}, run.loaded.bearings, duty});
-  for (const auto& part : verdict.parts)
-    if (part.name == body) return headline(part);
-  return to_string(Judgement::not_judged);
-}
-
-/// The picture of one body, whose envelope is written.
-/// @return as draw
-std::string draw_body(const std::filesystem::path& place, const Scene& scene, const SceneRun& run,
-                      const Judged& analysis, const DutyResult* duty) {
-  const auto verdict = verdict_on(run, analysis.scene.name, duty);
-  if (n_ranks_of_a_body() == 1)
-    return draw(place / "envelope.vtu", place, scene.title, verdict, analysis, duty);
-  const AtomicFile whole(place / "envelope_whole.vtu");  // not kept
-  write_whole_envelope(whole.temporary(), run.loaded.scene, run.loaded.loads, analysis);
-  return draw(whole.temporary(), place, scene.title, verdict, analysis, duty);
-}
-
 /// A picture takes seconds, and results are not there before all are drawn.
 bool is_too_late_to_draw(const RequestedAccuracy& accuracy, std::chrono::steady_clock::time_point start) {
   constexpr double grace = 1.1;
@@ -371,9 +295,8 @@ std::vector<std::string> write_and_draw(const Request& request, const Scene& sce
             ? run.analyses[i].scene.name +
                   ": no picture: the time was up; envelope.vtu opens in ParaView, a longer time limit draws "
                   "it"
-        : draws
-            ? clock.run("pictures", [&] { return draw_body(place(i), scene, run, run.analyses[i], duty); })
-            : std::string();
+        : draws ? clock.run("pictures", [&] { return draw_envelope(place(i), run, run.analyses[i], duty); })
+                : std::string();
     clock.run("write", [&] { next.get(); });
     if (fault.empty()) continue;
     std::cerr << fault << '\n';
