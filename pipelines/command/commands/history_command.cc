@@ -57,12 +57,10 @@ void add_history_command(CLI::App& app, ChosenCommand& chosen) {
   auto options = std::make_shared<HistoryCommandOptions>();
   auto* command = add_scene_command(
       app, "history", "stress over the cycle at zones, weld toes and chosen points, as tables", *options);
-  command
-      ->add_option("--at", options->at,
-                   "\"zone 1\", the name of a surface, port or weld toe, \"node 12\" or \"12, 0, -3 mm\", of "
-                   "one body as \"shaft/zone 1\"; again and again (default: all zones and weld toes)")
-      ->take_all()
-      ->expected(1);
+  add_repeated_option(
+      *command, "--at", options->at,
+      "\"zone 1\", the name of a surface, port or weld toe, \"node 12\" or \"12, 0, -3 mm\", of "
+      "one body as \"shaft/zone 1\"; may be repeated (default: all zones and weld toes)");
   command->add_option("-o,--output", options->output,
                       "directory for the histories (default: results/<scene>_history)");
   command->add_option("--results", options->results,

@@ -403,7 +403,7 @@ void add_run_options(CLI::App& command, WantedRun& options, ChosenCommand& chose
   command.add_option("--tolerance", options.tolerance,
                      "refine until the stress is known this well, like \"2 %\" (default: the scene's)");
   command.add_option("--time-limit", options.time_limit,
-                     "stop refining in time, like \"60 s\" (default: the scene's)");
+                     "stop each search in time, like \"60 s\" (default: the scene's)");
   command.add_option("--method", options.method,
                      "model of every body: auto, beam, axisymmetric or solid (default: the scene's)");
 }

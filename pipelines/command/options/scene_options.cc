@@ -47,13 +47,16 @@ CLI::App* add_scene_command(CLI::App& app, const char* name, const char* descrip
             return std::string();
           },
           ""));
-  command
-      ->add_option("--set", options.settings,
-                   "KEY=VALUE: a key of the scene as if the file said so; may be repeated")
-      ->allow_extra_args(false);
+  add_repeated_option(*command, "--set", options.settings,
+                      "KEY=VALUE: a key of the scene as if the file said so; may be repeated");
   command->add_flag("-q,--quiet", options.quiet, "no progress");
   command->add_flag("-v,--verbose", options.verbose, "more progress");
   return command;
+}
+
+void add_repeated_option(CLI::App& command, const char* name, std::vector<std::string>& values,
+                         const char* description) {
+  command.add_option(name, values, description)->allow_extra_args(false);
 }
 
 void add_threads_option(CLI::App& command, int& n_threads, ChosenCommand& chosen) {

@@ -32,6 +32,10 @@ std::string file_of_scene(const std::string& scene);
 /// A subcommand with the scene, --set, -q and -v.
 CLI::App* add_scene_command(CLI::App& app, const char* name, const char* description, SceneOptions& options);
 
+/// An option that takes one text each time it is given.
+void add_repeated_option(CLI::App& command, const char* name, std::vector<std::string>& values,
+                         const char* description);
+
 /// --threads of a command and of the helper ranks.
 void add_threads_option(CLI::App& command, int& n_threads, ChosenCommand& chosen);
 

@@ -426,11 +426,9 @@ void add_sweep_command(CLI::App& app, ChosenCommand& chosen) {
   auto options = std::make_shared<SweepCommandOptions>();
   auto* command = add_scene_command(
       app, "sweep", "many operating points over one mesh and one set of unit responses", *options);
-  command
-      ->add_option(
-          "--vary", options->vary,
-          "\"KEY = A..B UNIT / N [log]\" or \"KEY = V, V, V\"; may be repeated (default: the scene's)")
-      ->allow_extra_args(false);
+  add_repeated_option(
+      *command, "--vary", options->vary,
+      "\"KEY = A..B UNIT / N [log]\" or \"KEY = V, V, V\"; may be repeated (default: the scene's)");
   command->add_option("--design", options->design,
                       "grid, one-at-a-time or latin-hypercube (default: the scene's, or grid)");
   command->add_option("--points", options->n_points, "of a Latin hypercube")->check(CLI::Range(2, 1'000'000));
@@ -438,21 +436,14 @@ void add_sweep_command(CLI::App& app, ChosenCommand& chosen) {
   command->add_flag("--loads", options->loads_only, "the load stage alone, microseconds a point");
   command->add_flag("--zones", options->zones,
                     "the stress zones of every point, followed from point to point");
-  command
-      ->add_option("--figure", options->figures,
-                   "to print and draw, a column of sweep.csv; may be repeated (default: governing stresses)")
-      ->allow_extra_args(false);
+  add_repeated_option(
+      *command, "--figure", options->figures,
+      "to print and draw, a column of sweep.csv; may be repeated (default: governing stresses)");
   command->add_option("-o,--output", options->output, "result directory (default: results/<scene>_sweep)");
-  command->add_option("--tolerance", options->tolerance,
-                      "of every mesh that is searched, like \"2 %\" (default: the scene's)");
-  command->add_option("--time-limit", options->time_limit,
-                      "of every search, like \"60 s\" (default: the scene's)");
-  command->add_option("--method", options->method,
-                      "model of every body: auto, beam, axisymmetric or solid (default: the scene's)");
   add_force_option(*command, *options);
   command->add_flag("--fresh", options->fresh, "reuse nothing of an earlier sweep");
   command->add_flag("--json", options->json, "print the rows as JSON instead of the table");
-  add_threads_option(*command, options->n_threads, chosen);
+  add_run_options(*command, *options, chosen);
   command->callback([options, choose = to_choose(chosen, options, carry_out), &chosen] {
     choose();
     chosen.on_other_ranks = [options] { sweep_beside_first_rank(*options); };

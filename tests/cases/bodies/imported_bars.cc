@@ -35,27 +35,15 @@ effects = ["load"]
 [machine]
 type = "load_table"
 speed = "600 rpm"
-
-[sampling]
-instants_per_turn = 8
-turns = 1
-
-[results]
-snapshots = 0
-pictures = false
-
+)" + step_shafts::one_turn(8) +
+                       R"(
 [part]
 file = "bar.step"
 )";
     for (const bool far : {false, true}) {
       const auto name = far ? "far" : "near";
       const double z_mm = far ? bar.length_mm : 0;
-      text += fmt::format(
-          R"([[part.ports]]
-port = "{}"
-box = {{ low = ["-50 mm", "-50 mm", "{} mm"], high = ["50 mm", "50 mm", "{} mm"] }}
-)",
-          name, z_mm - 0.1, z_mm + 0.1);
+      text += step_shafts::box_port(name, {-50, -50, z_mm - 0.1}, {50, 50, z_mm + 0.1});
       text += fmt::format("[[machine.constants]]\neffect = \"load\"\nload = \"{}.mx\"\nvalue = \"{} N m\"\n",
                           name, far ? moment_Nm : -moment_Nm);
     }

@@ -28,15 +28,7 @@ effect = "torque"
 load = "right.torque"
 amplitude = "150 N m"
 order = 1
-
-[sampling]
-instants_per_turn = 16
-turns = 1
-
-[results]
-snapshots = 0
-pictures = false
-)";
+)" + step_shafts::one_turn(16);
 
 const std::string supports = R"(
 bearings = ["left", "right"]
@@ -308,12 +300,8 @@ TEST(ImportedBody, WithLittleTimeTheFirstMeshIsCoarse) {
   std::string text = scene(R"(
 [part]
 file = "plate.step"
-[[part.ports]]
-port = "middle"
-box = { low = ["-1 mm", "-1 mm", "-1 mm"], high = ["41 mm", "11 mm", "1 mm"] }
-[[part.ports]]
-port = "right"
-box = { low = ["-1 mm", "-1 mm", "79 mm"], high = ["41 mm", "11 mm", "81 mm"] }
+)" + step_shafts::box_port("middle", {-1, -1, -1}, {41, 11, 1}) +
+                               step_shafts::box_port("right", {-1, -1, 79}, {41, 11, 81}) + R"(
 [part.mesh]
 cells_per_circle = 24
 )",

@@ -16,39 +16,29 @@ namespace {
 
 namespace occ = gmsh::model::occ;
 
+/// The scene of a part that is held at its port "foot" and pulled at "top".
+/// @param load  of the machine
+/// @param rest  of the part, but for its material
+fs::path write_scene(const fs::path& directory, const std::string& part, const std::string& load,
+                     const std::string& rest) {
+  return write(directory / (part + ".toml"),
+               "effects = [\"pull\"]\n[machine]\ntype = \"load_table\"\nspeed = \"600 rpm\"\n" + load +
+                   step_shafts::one_turn(12) + "\n[part]\nfile = \"" + part + ".step\"\nclamp = \"foot\"\n" +
+                   rest + steel_of("part"));
+}
+
 constexpr double force_N = 3000, arm_mm = 50, width_mm = 40, plate_mm = 12;
 
 /// An upright of 12 mm on a base of 100 x 12 x 40 mm, pulled sideways 50 mm above the base; `edges` are its
 /// `[[part.edges]]`.
 fs::path tee(const fs::path& directory, const std::string& edges, const std::string& mesh = "") {
   step_shafts::write_drawn(directory / "tee.step", [] {
-    gmsh::vectorpair result;
-    std::vector<gmsh::vectorpair> map;
-    occ::fuse({{3, occ::addBox(-50, 0, 0, 100, 12, 40)}}, {{3, occ::addBox(-6, 12, 0, 12, 50, 40)}}, result,
-              map);
-    occ::synchronize();
+    step_shafts::fuse({occ::addBox(-50, 0, 0, 100, 12, 40), occ::addBox(-6, 12, 0, 12, 50, 40)});
   });
-  return write(directory / "tee.toml", R"(effects = ["pull"]
-[machine]
-type = "load_table"
-speed = "600 rpm"
-constants = [{ effect = "pull", load = "top.fx", value = "3 kN" }]
-[sampling]
-instants_per_turn = 12
-turns = 1
-[results]
-snapshots = 0
-pictures = false
-[part]
-file = "tee.step"
-clamp = "foot"
-[[part.ports]]
-port = "top"
-box = { low = ["-7 mm", "61.9 mm", "-1 mm"], high = ["7 mm", "62.1 mm", "41 mm"] }
-[[part.ports]]
-port = "foot"
-box = { low = ["-51 mm", "-0.1 mm", "-1 mm"], high = ["51 mm", "0.1 mm", "41 mm"] }
-)" + edges + mesh + steel_of("part"));
+  return write_scene(directory, "tee",
+                     "constants = [{ effect = \"pull\", load = \"top.fx\", value = \"3 kN\" }]\n",
+                     step_shafts::box_port("top", {-7, 61.9, -1}, {7, 62.1, 41}) +
+                         step_shafts::box_port("foot", {-51, -0.1, -1}, {51, 0.1, 41}) + edges + mesh);
 }
 
 }  // namespace
@@ -107,33 +97,14 @@ constexpr double small_mm = 20, large_mm = 30, notch_mm = 1;
 /// A stepped bar without a fillet, pulled along the axis by a force that swings between plus and minus 10 kN.
 fs::path stepped_bar(const fs::path& directory, const std::string& edges) {
   step_shafts::write_drawn(directory / "bar.step", [] {
-    gmsh::vectorpair result;
-    std::vector<gmsh::vectorpair> map;
-    occ::fuse({{3, occ::addCylinder(0, 0, -40, 0, 0, 40, large_mm / 2)}},
-              {{3, occ::addCylinder(0, 0, 0, 0, 0, 40, small_mm / 2)}}, result, map);
-    occ::synchronize();
+    step_shafts::fuse({occ::addCylinder(0, 0, -40, 0, 0, 40, large_mm / 2),
+                       occ::addCylinder(0, 0, 0, 0, 0, 40, small_mm / 2)});
   });
-  return write(directory / "bar.toml", R"(effects = ["pull"]
-[machine]
-type = "load_table"
-speed = "600 rpm"
-harmonics = [{ effect = "pull", load = "top.fz", amplitude = "10 kN", order = 1 }]
-[sampling]
-instants_per_turn = 12
-turns = 1
-[results]
-snapshots = 0
-pictures = false
-[part]
-file = "bar.step"
-clamp = "foot"
-[[part.ports]]
-port = "top"
-box = { low = ["-11 mm", "-11 mm", "39.9 mm"], high = ["11 mm", "11 mm", "40.1 mm"] }
-[[part.ports]]
-port = "foot"
-box = { low = ["-16 mm", "-16 mm", "-40.1 mm"], high = ["16 mm", "16 mm", "-39.9 mm"] }
-)" + edges + steel_of("part"));
+  return write_scene(
+      directory, "bar",
+      "harmonics = [{ effect = \"pull\", load = \"top.fz\", amplitude = \"10 kN\", order = 1 }]\n",
+      step_shafts::box_port("top", {-11, -11, 39.9}, {11, 11, 40.1}) +
+          step_shafts::box_port("foot", {-16, -16, -40.1}, {16, 16, -39.9}) + edges);
 }
 
 std::string notch_at(double x_mm, double y_mm, double z_mm, const std::string& radius = "1 mm") {

@@ -16,16 +16,6 @@ type = "load_table"
 speed = "1000 rpm"
 )";
 
-const std::string tail = R"(
-[sampling]
-instants_per_turn = 16
-turns = 1
-
-[results]
-snapshots = 0
-pictures = false
-)";
-
 const std::string material = R"(
 [{0}.material]
 name = "steel"
@@ -150,6 +140,36 @@ void write_drawn(const std::filesystem::path& file, const std::function<void()>&
   gmsh::finalize();
 }
 
+void fuse(const std::vector<int>& tags) {
+  gmsh::vectorpair others, result;
+  for (std::size_t i = 1; i < tags.size(); ++i) others.emplace_back(3, tags[i]);
+  std::vector<gmsh::vectorpair> map;
+  gmsh::model::occ::fuse({{3, tags.front()}}, others, result, map);
+  gmsh::model::occ::synchronize();
+}
+
+std::string one_turn(int n_instants) {
+  return fmt::format(R"(
+[sampling]
+instants_per_turn = {}
+turns = 1
+
+[results]
+snapshots = 0
+pictures = false
+)",
+                     n_instants);
+}
+
+std::string box_port(const std::string& name, const std::array<double, 3>& low,
+                     const std::array<double, 3>& high) {
+  const auto point = [](const std::array<double, 3>& p) {
+    return fmt::format("[\"{} mm\", \"{} mm\", \"{} mm\"]", p[0], p[1], p[2]);
+  };
+  return fmt::format("\n[[part.ports]]\nport = \"{}\"\nbox = {{ low = {}, high = {} }}\n", name, point(low),
+                     point(high));
+}
+
 void write_step(const StepShaft& shaft, const std::filesystem::path& file) {
   namespace occ = gmsh::model::occ;
   write_drawn(file, [&] {
@@ -170,8 +190,8 @@ void write_step(const StepShaft& shaft, const std::filesystem::path& file) {
 }
 
 std::string scene_of_step(const StepShaft& shaft, const std::string& mesh_keys) {
-  std::string text =
-      head + shaft.loads + tail + fmt::format("\n[part]\nfile = \"{}.step\"\n", shaft.name) + shaft.supports;
+  std::string text = head + shaft.loads + one_turn(16) +
+                     fmt::format("\n[part]\nfile = \"{}.step\"\n", shaft.name) + shaft.supports;
   double z = 0;
   for (const auto& s : shaft.segments) {
     if (s.is_port)
@@ -185,7 +205,7 @@ std::string scene_of_step(const StepShaft& shaft, const std::string& mesh_keys) 
 }
 
 std::string scene_of_blocks(const StepShaft& shaft) {
-  std::string text = head + shaft.loads + tail + "\n[shaft]\ncontour = [\n";
+  std::string text = head + shaft.loads + one_turn(16) + "\n[shaft]\ncontour = [\n";
   for (std::size_t i = 0; i < shaft.segments.size(); ++i) {
     const auto& s = shaft.segments[i];
     text += fmt::format("  {{ {} = \"{}\", diameter = \"{} mm\", length = \"{} mm\"",

@@ -1,6 +1,7 @@
 /// Five shafts whose largest stress is known, as STEP files: what a user brings, and what is true of it.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -36,6 +37,16 @@ std::vector<StepShaft> all();
 
 /// Calls draw in a session of gmsh of its own and writes what it left.
 void write_drawn(const std::filesystem::path& file, const std::function<void()>& draw);
+
+/// Joins solids of gmsh's model to one.
+void fuse(const std::vector<int>& tags);
+
+/// [sampling] and [results] of a scene that writes no more than its stresses.
+std::string one_turn(int n_instants);
+
+/// A port of body "part": the face within a box, whose corners are given in millimetres.
+std::string box_port(const std::string& name, const std::array<double, 3>& low,
+                     const std::array<double, 3>& high);
 
 /// The solid by OpenCASCADE, in millimetres.
 void write_step(const StepShaft& shaft, const std::filesystem::path& file);

@@ -13,30 +13,17 @@ namespace sharp_parts {
 namespace {
 
 namespace occ = gmsh::model::occ;
+using step_shafts::fuse;
 
 int box(const Point& corner, const Point& size) {
   return occ::addBox(corner[0], corner[1], corner[2], size[0], size[1], size[2]);
-}
-
-gmsh::vectorpair solids(const std::vector<int>& tags) {
-  gmsh::vectorpair result;
-  for (const int tag : tags) result.emplace_back(3, tag);
-  return result;
-}
-
-/// The first and the others as one solid.
-void fuse(const std::vector<int>& tags) {
-  gmsh::vectorpair result;
-  std::vector<gmsh::vectorpair> map;
-  occ::fuse(solids({tags.front()}), solids({tags.begin() + 1, tags.end()}), result, map);
-  occ::synchronize();
 }
 
 /// The first without the second.
 void cut(int tag, int tool) {
   gmsh::vectorpair result;
   std::vector<gmsh::vectorpair> map;
-  occ::cut(solids({tag}), solids({tool}), result, map);
+  occ::cut({{3, tag}}, {{3, tool}}, result, map);
   occ::synchronize();
 }
 
@@ -71,11 +58,7 @@ LoadedFace face(int across, double at, const std::array<double, 2>& low, const s
 }
 
 std::string port_text(const std::string& name, const LoadedFace& face) {
-  const auto point = [](const Point& p) {
-    return fmt::format("[\"{} mm\", \"{} mm\", \"{} mm\"]", p[0], p[1], p[2]);
-  };
-  return fmt::format("\n[[part.ports]]\nport = \"{}\"\nbox = {{ low = {}, high = {} }}\n", name,
-                     point(face.low), point(face.high));
+  return step_shafts::box_port(name, face.low, face.high);
 }
 
 }  // namespace
@@ -202,15 +185,8 @@ effects = ["pull"]
 [machine]
 type = "load_table"
 speed = "1000 rpm"
-)" << loads << R"(
-[sampling]
-instants_per_turn = 12
-turns = 1
-
-[results]
-snapshots = 0
-pictures = false
-
+)" << loads << step_shafts::one_turn(12)
+                       << R"(
 [part]
 file = "part.step"
 clamp = "held"
