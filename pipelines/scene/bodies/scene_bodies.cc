@@ -37,8 +37,7 @@ std::vector<SceneTable> read_bodies(SceneTable& root, Scene& scene, SceneFinding
   std::vector<SceneTable> tables;
   const BodyTables own = bodies_of(machine.type());
   for (const auto& [name, kind] : own) {
-    root.know(name);
-    if (!root.has(name)) continue;
+    if (!root.is_given(name)) continue;
     tables.push_back(root.table(name));
     scene.bodies.push_back(read_body(tables.back(), *kind, scene, findings));
   }

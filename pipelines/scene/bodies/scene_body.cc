@@ -8,25 +8,22 @@ namespace pipelines {
 namespace {
 
 void read_added_masses(SceneTable& table, const BodyReader& kind, BodyScene& body) {
-  table.know("added_masses");
-  if (table.has("added_masses"))
-    for (SceneTable& entry : table.tables("added_masses")) {
-      AddedMass added;
-      added.name = entry.name("name");
-      added.port = entry.text("port");
-      check_port(entry, "port", added.port, ports_of(body).all, "the ports of this body");
-      added.mass_kg = entry.quantity("mass", "kg", positive(1e6));
-      added.polar_inertia_kg_m2 =
-          entry.quantity_or("polar_inertia", "kg m2", not_negative(1e9), 0, "about its own centre");
-      entry.know("offset");
-      if (entry.has("offset")) {
-        const auto offset = entry.quantities("offset", "m", between(-100, 100), 2);
-        if (offset.size() == 2) added.centre_m = {offset[0], offset[1]};
-      }
-      kind.read_region(entry, added);
-      entry.finish();
-      body.added_masses.push_back(added);
+  for (SceneTable& entry : table.tables_if_any("added_masses")) {
+    AddedMass added;
+    added.name = entry.name("name");
+    added.port = entry.text("port");
+    check_port(entry, "port", added.port, ports_of(body).all, "the ports of this body");
+    added.mass_kg = entry.quantity("mass", "kg", positive(1e6));
+    added.polar_inertia_kg_m2 =
+        entry.quantity_or("polar_inertia", "kg m2", not_negative(1e9), 0, "about its own centre");
+    if (entry.is_given("offset")) {
+      const auto offset = entry.quantities("offset", "m", between(-100, 100), 2);
+      if (offset.size() == 2) added.centre_m = {offset[0], offset[1]};
     }
+    kind.read_region(entry, added);
+    entry.finish();
+    body.added_masses.push_back(added);
+  }
   const auto usual = kind.usual_difference_port(body);
   if (!usual) return;
   body.difference_port =
@@ -46,8 +43,7 @@ void read_solver(SceneTable& table, BodyScene& body) {
 
 void read_natural_frequencies(SceneTable& table, BodyScene& body) {
   constexpr int most = 50;  // above them a body's modes are no concern of its bearings' harmonics
-  table.know("natural_frequencies");
-  if (table.has("natural_frequencies"))
+  if (table.is_given("natural_frequencies"))
     body.natural_frequencies = table.count_or("natural_frequencies", 0, most, 0, "not asked for");
 }
 
@@ -59,8 +55,7 @@ BodyScene read_body(SceneTable& table, const BodyReader& kind, const Scene& scen
   body.origin = table.origin();
   body.mesh_keys = table.places_in("mesh");
   body.options = kind.read_options(table, scene);
-  table.know("file");
-  if (table.has("file"))
+  if (table.is_given("file"))
     body.shape = read_import(table, scene.file.parent_path(), kind.contour_rules(scene, body).ports);
   else
     body.shape = kind.read_shape(table, scene, body, findings);

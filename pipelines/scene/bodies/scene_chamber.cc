@@ -12,8 +12,7 @@ meshes::ChamberMeshControl read_mesh(SceneTable mesh) {
   control.cells_through_wall =
       mesh.count_or("cells_through_wall", 1, Control::most_cells_through_wall, usual.cells_through_wall,
                     "quadratic cells through the tube's wall");
-  mesh.know("size");
-  if (mesh.has("size")) control.size_m = mesh.quantity("size", "m", positive(longest_chamber_m));
+  control.size_m = mesh.quantity_if_given("size", "m", positive(longest_chamber_m)).value_or(control.size_m);
   control.growth = mesh.quantity_or("growth", "1", between(0.05, Control::steepest_growth), usual.growth,
                                     "slope of the cell size away from weld toes");
   control.min_scaled_jacobian = mesh.quantity_or("min_scaled_jacobian", "1", between(0.01, 0.99),

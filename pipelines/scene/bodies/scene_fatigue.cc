@@ -151,21 +151,19 @@ void read_toe(SceneTable& table, WeldToeScene& toe) {
 void read_toes(SceneTable& table, FatigueScene& fatigue) {
   auto welds = table.table_or_empty("welds");
   read_toe(welds, fatigue.toes);
-  welds.know("toes");
-  if (welds.has("toes"))
-    for (SceneTable& entry : welds.tables("toes")) {
-      WeldToeScene toe = fatigue.toes;
-      const auto name = entry.text("name");
-      read_toe(entry, toe);
-      if (!entry.has("type") && !entry.has("class") && !entry.has("partial_factor"))
-        entry.refuse("name",
-                     "is a toe of which nothing is said; give it a type, a class or a "
-                     "partial_factor, or remove the entry");
-      toe.origin = entry.origin();
-      if (!name.empty() && !fatigue.toes_by_name.emplace(name, toe).second)
-        entry.refuse("name", "has an entry already; give each weld toe one");
-      entry.finish();
-    }
+  for (SceneTable& entry : welds.tables_if_any("toes")) {
+    WeldToeScene toe = fatigue.toes;
+    const auto name = entry.text("name");
+    read_toe(entry, toe);
+    if (!entry.has("type") && !entry.has("class") && !entry.has("partial_factor"))
+      entry.refuse("name",
+                   "is a toe of which nothing is said; give it a type, a class or a "
+                   "partial_factor, or remove the entry");
+    toe.origin = entry.origin();
+    if (!name.empty() && !fatigue.toes_by_name.emplace(name, toe).second)
+      entry.refuse("name", "has an entry already; give each weld toe one");
+    entry.finish();
+  }
   welds.finish();
 }
 
@@ -176,8 +174,7 @@ namespace {
 /// R_m of the table, or of the material.
 void read_tensile_strength(SceneTable& table, const KnownStrength& strength, FatigueScene& fatigue) {
   auto& tensile_Pa = fatigue.material.tensile_strength_Pa;
-  table.know("tensile_strength");
-  if (table.has("tensile_strength") || !strength.why_none.empty()) {
+  if (table.is_given("tensile_strength") || !strength.why_none.empty()) {
     tensile_Pa = table.quantity("tensile_strength", "Pa", between(1e7, 3e9));
   } else {
     tensile_Pa = strength.tensile_Pa;
@@ -202,17 +199,14 @@ FatigueScene read_rules(SceneTable& table, const KnownStrength& strength, const 
   read_tensile_strength(table, strength, fatigue);
   read_size(table, fatigue);
   read_group(table, strength.group, fatigue);
-  table.know("elongation");
-  if (table.has("elongation")) fatigue.material.elongation = table.quantity("elongation", "1", between(0, 1));
+  fatigue.material.elongation = table.quantity_if_given("elongation", "1", between(0, 1));
   fatigue.roughness_m = table.quantity_or("roughness", "m", {1e-7, 1e-3}, 25e-6, "R_z of a turned surface");
   fatigue.treatment = table.quantity_or("surface_treatment", "1", between(0.5, 3), 1, "none (K_V)");
   read_safety(table, fatigue);
   fatigue.reliability =
       table.quantity_or("reliability", "1", between(0.5, 0.999999), 0.975, "of the guideline's strengths");
-  for (const char* key : {"endurance_limit", "wanted_life"}) table.know(key);
-  if (table.has("endurance_limit"))
-    fatigue.endurance_Pa = table.quantity("endurance_limit", "Pa", between(1e6, 3e9));
-  if (table.has("wanted_life")) fatigue.wanted_life_s = table.quantity("wanted_life", "s", positive(1e12));
+  fatigue.endurance_Pa = table.quantity_if_given("endurance_limit", "Pa", between(1e6, 3e9));
+  fatigue.wanted_life_s = table.quantity_if_given("wanted_life", "s", positive(1e12));
   if (has_welds(body)) read_toes(table, fatigue);
   try_rules(table, fatigue);
   return fatigue;

@@ -54,8 +54,7 @@ GoverningSize size_of(const meshes::Import&) {
 }
 
 GoverningSize read_size(SceneTable& material, const BodyScene& body) {
-  material.know("thickness");
-  if (!material.has("thickness"))
+  if (!material.is_given("thickness"))
     return std::visit([](const auto& shape) { return size_of(shape); }, body.shape);
   const double size_m = material.quantity("thickness", "m", positive(10));
   return {size_m, fmt::format("thickness {:.4g} mm", 1e3 * size_m)};
@@ -105,8 +104,7 @@ private:
   void refuse_if_incomplete() {
     std::vector<std::string> missing;
     for (const auto* key : {&modulus_key, &poisson_key, &density_key, &yield_key}) {
-      material_.know(key->name);
-      if (!material_.has(key->name)) missing.emplace_back(key->name);
+      if (!material_.is_given(key->name)) missing.emplace_back(key->name);
     }
     const auto written = material_.names();
     missing.erase(std::remove_if(missing.begin(), missing.end(),
@@ -160,8 +158,7 @@ private:
   }
 
   MaterialGroup group() {
-    material_.know("group");
-    if (!material_.has("group")) return entry_ == nullptr ? MaterialGroup::steel : entry_->group;
+    if (!material_.is_given("group")) return entry_ == nullptr ? MaterialGroup::steel : entry_->group;
     const auto name = material_.text("group");
     std::vector<std::string> names;
     for (const auto& group : material_groups()) {
@@ -173,8 +170,7 @@ private:
   }
 
   void read_tensile(KnownStrength& strength) {
-    material_.know(tensile_key.name);
-    if (material_.has(tensile_key.name)) {
+    if (material_.is_given(tensile_key.name)) {
       strength.tensile_Pa = material_.quantity(tensile_key.name, "Pa", tensile_key.range);
       if (strength.tensile_Pa < body_.yield_strength_Pa)
         material_.refuse(tensile_key.name, "is below the material's yield_strength; correct one of them");

@@ -9,8 +9,7 @@ namespace {
 
 /// "uniform", "parabolic", or values along the seat.
 std::vector<double> read_axial_profile(SceneTable& table) {
-  table.know("axial");
-  if (!table.has("axial")) return {1};
+  if (!table.is_given("axial")) return {1};
   if (table.has_list("axial")) {
     auto values = table.list("axial", "1", not_negative(1e6));
     if (values.size() == 1 || std::all_of(values.begin(), values.end(), [](double v) { return v == 0; }))
@@ -69,8 +68,7 @@ std::string why_no_contact(const BodyScene& body, const std::string& port) {
 }
 
 void read_clearance(SceneTable& table, const BodyScene& body, const std::string& port, PressureModel& model) {
-  table.know("clearance");
-  if (!table.has("clearance")) return;
+  if (!table.is_given("clearance")) return;
   constexpr double most_m = 0.01;
   model.clearance_m = table.quantity_or("clearance", "m", not_negative(most_m), 0, "");
   if (table.has("half_angle"))
@@ -111,8 +109,7 @@ void read_pressures(SceneTable& table, BodyScene& body) {
     table.refuse("pressure_harmonics",
                  "must be even: a half-cosine has no odd harmonic above the first; write " +
                      std::to_string(body.pressure_harmonics + 1));
-  table.know("pressure");
-  if (!table.has("pressure")) return;
+  if (!table.is_given("pressure")) return;
   SceneTable pressures = table.table("pressure");
   for (const auto& port : pressures.names()) {
     body.pressures[port] = read_pressure(pressures.table(port), body, port);

@@ -44,8 +44,7 @@ void refuse_unknown_port(SceneTable& table, const std::string& key, const std::s
 }
 
 void read_bore_port(SceneTable& table, const ContourRules& rules, meshes::ShaftSegment& segment) {
-  table.know("bore_port");
-  if (!table.has("bore_port")) return;
+  if (!table.is_given("bore_port")) return;
   segment.bore_port = table.name("bore_port");
   if (!table.has("bore"))
     table.refuse("bore_port", "is a port inside a bore that is not there; give the bore's diameter as bore");
@@ -81,14 +80,12 @@ meshes::ShaftSegment read_segment(SceneTable& table, const ContourRules& rules) 
   if (is_seat && std::abs(segment.eccentricity_m - drive_m) > 1e-9 * drive_m)
     table.refuse("eccentricity", "differs from machine.drive.eccentricity, " + mm(drive_m) +
                                      ": forces and moments on the shaft would not close; remove it here");
-  table.know("eccentricity_angle");
-  if (table.has("eccentricity_angle")) {
+  if (table.is_given("eccentricity_angle")) {
     segment.eccentricity_angle_rad = table.quantity("eccentricity_angle", "rad", between(-2 * pi, 2 * pi));
     if (is_seat && segment.eccentricity_angle_rad != 0)
       table.refuse("eccentricity_angle", "the drive's eccentric lies along +x of the shaft; remove it here");
   }
-  table.know("bore");
-  if (table.has("bore")) segment.bore_m = table.quantity("bore", "m", positive(10));
+  segment.bore_m = table.quantity_if_given("bore", "m", positive(10)).value_or(segment.bore_m);
   if (segment.bore_m >= segment.diameter_m)
     table.refuse("bore", "leaves no wall: the diameter is " + mm(segment.diameter_m) +
                              "; make it smaller, or the diameter larger");
@@ -271,8 +268,8 @@ meshes::ShaftMeshControl read_shaft_mesh(SceneTable mesh) {
                 "must be a multiple of 4; write " + std::to_string((control.n_sectors / 4 + 1) * 4));
   control.growth = mesh.quantity_or("growth", "1", between(0.05, Control::steepest_growth), usual.growth,
                                     "slope of the cell size away from fillets");
-  mesh.know("largest_cell");
-  if (mesh.has("largest_cell")) control.largest_cell_m = mesh.quantity("largest_cell", "m", positive(10));
+  control.largest_cell_m =
+      mesh.quantity_if_given("largest_cell", "m", positive(10)).value_or(control.largest_cell_m);
   control.min_scaled_jacobian = mesh.quantity_or("min_scaled_jacobian", "1", between(0.01, 0.99),
                                                  usual.min_scaled_jacobian, "worse meshes are refused");
   mesh.finish();

@@ -22,8 +22,7 @@ std::array<double, 3> point(SceneTable& table, const std::string& name) {
 
 meshes::CylinderSelection read_cylinder(SceneTable table) {
   meshes::CylinderSelection cylinder;
-  table.know("axis");
-  if (table.has("axis")) {
+  if (table.is_given("axis")) {
     const auto axis = table.quantities("axis", "m", between(-longest_part_m, longest_part_m), 2);
     if (axis.size() == 2) cylinder.axis_x_m = axis[0], cylinder.axis_y_m = axis[1];
   } else {
@@ -47,8 +46,7 @@ meshes::ImportPort read_port(SceneTable& table) {
   port.name = table.name("port");
   std::vector<std::string> given;
   for (const char* way : {"group", "box", "cylinder"}) {
-    table.know(way);
-    if (table.has(way)) given.push_back(way);
+    if (table.is_given(way)) given.push_back(way);
   }
   if (given.size() != 1) {
     const std::string remedy =
@@ -79,8 +77,7 @@ meshes::ImportPort read_port(SceneTable& table) {
     port.selection = cylinder;
     if (cylinder.side == meshes::CylinderSelection::Side::inside) port.kind = meshes::Port::Kind::bore;
   }
-  table.know("kind");
-  if (table.has("kind")) {
+  if (table.is_given("kind")) {
     const std::string kind = table.text("kind");
     using Kind = meshes::Port::Kind;
     if (kind == "seat" || kind == "bore" || kind == "face")
@@ -134,17 +131,15 @@ void read_edge(SceneTable& table, meshes::Import& import) {
 meshes::SolidControl read_solid_control(SceneTable mesh) {
   const meshes::SolidControl usual;
   meshes::SolidControl control;
-  mesh.know("size");
-  if (mesh.has("size")) control.size_m = mesh.quantity("size", "m", positive(longest_part_m));
-  mesh.know("smallest_size");
-  if (mesh.has("smallest_size"))
-    control.smallest_size_m = mesh.quantity("smallest_size", "m", positive(longest_part_m));
+  control.size_m = mesh.quantity_if_given("size", "m", positive(longest_part_m)).value_or(control.size_m);
+  control.smallest_size_m = mesh.quantity_if_given("smallest_size", "m", positive(longest_part_m))
+                                .value_or(control.smallest_size_m);
   control.cells_per_circle =
       mesh.count_or("cells_per_circle", 6, 400, usual.cells_per_circle, "around every curved surface");
   control.min_scaled_jacobian = mesh.quantity_or("min_scaled_jacobian", "1", between(0.001, 0.99),
                                                  usual.min_scaled_jacobian, "worse meshes are refused");
-  mesh.know("exclusion");
-  if (mesh.has("exclusion")) control.exclusion_m = mesh.quantity("exclusion", "m", positive(longest_part_m));
+  control.exclusion_m =
+      mesh.quantity_if_given("exclusion", "m", positive(longest_part_m)).value_or(control.exclusion_m);
   mesh.finish();
   return control;
 }
@@ -163,12 +158,9 @@ meshes::Import read_import(SceneTable& body, const std::filesystem::path& scene_
                             " are read; export the part alone, or mesh it coarser");
   else
     note_input(import.geometry);
-  body.know("length_unit");
-  if (body.has("length_unit")) import.scale_to_m = body.quantity("length_unit", "m", positive(1e3));
+  import.scale_to_m = body.quantity_if_given("length_unit", "m", positive(1e3)).value_or(import.scale_to_m);
   for (SceneTable& table : body.tables("ports")) import.ports.push_back(read_port(table));
-  body.know("edges");
-  if (body.has("edges"))
-    for (SceneTable& table : body.tables("edges")) read_edge(table, import);
+  for (SceneTable& table : body.tables_if_any("edges")) read_edge(table, import);
   std::vector<std::string> missing;
   for (const auto& name : needed_ports)
     if (std::none_of(import.ports.begin(), import.ports.end(), [&](const auto& p) { return p.name == name; }))
@@ -176,17 +168,15 @@ meshes::Import read_import(SceneTable& body, const std::filesystem::path& scene_
   if (!missing.empty() && body.has("ports"))
     body.refuse("ports", "loads have no place to enter: add the port " + listed(missing));
   SceneTable mesh = body.table_or_empty("mesh");
-  mesh.know("time_limit");
-  if (mesh.has("time_limit")) import.time_limit_s = mesh.quantity("time_limit", "s", between(1, 1e6));
+  import.time_limit_s =
+      mesh.quantity_if_given("time_limit", "s", between(1, 1e6)).value_or(import.time_limit_s);
   import.control = read_solid_control(std::move(mesh));
   return import;
 }
 
 std::vector<meshes::Keyway> read_keyways(SceneTable& body) {
   std::vector<meshes::Keyway> keyways;
-  body.know("keyways");
-  if (!body.has("keyways")) return keyways;
-  for (SceneTable& table : body.tables("keyways")) {
+  for (SceneTable& table : body.tables_if_any("keyways")) {
     meshes::Keyway keyway;
     keyway.segment = table.text("segment");
     keyway.width_m = table.quantity("width", "m", positive(longest_part_m));

@@ -41,8 +41,7 @@ public:
   BodyOptions read_options(SceneTable& table, const Scene& scene) const override {
     TableBodyOptions options;
     table.know("bearings");
-    table.know("clamp");
-    if (table.has("clamp")) {
+    if (table.is_given("clamp")) {
       options.clamp = table.text("clamp");
       for (const char* other : {"bearings", "axial_support", "torque_support"})
         if (table.has(other))
@@ -56,8 +55,7 @@ public:
     }
     for (auto* support : {&options.axial_support, &options.torque_support}) {
       const char* key = support == &options.axial_support ? "axial_support" : "torque_support";
-      table.know(key);
-      if (table.has(key)) *support = table.text(key);
+      if (table.is_given(key)) *support = table.text(key);
     }
     check_table_loads(table, scene);
     return options;

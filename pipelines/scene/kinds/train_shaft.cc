@@ -52,22 +52,20 @@ void read_torques(SceneTable& table, const kinetics::DriveTrain& train, bool ine
 }
 
 void read_forces(SceneTable& table, const kinetics::DriveTrain& train, TrainShaftOptions& shaft) {
-  table.know("forces");
-  if (table.has("forces"))
-    for (SceneTable& entry : table.tables("forces")) {
-      GivenForce force;
-      force.effect = entry.name("effect");
-      force.port = entry.text("port");
-      const auto is_excitation = [&](const auto& excitation) { return excitation.name == force.effect; };
-      if (force.effect == effect_name::shaft_inertia ||
-          std::any_of(train.excitations.begin(), train.excitations.end(), is_excitation))
-        entry.refuse("effect", "is the name of another effect of this scene; take a name of its own");
-      const auto value = entry.quantities("force", "N", between(-1e9, 1e9), 3);
-      if (value.size() == 3) force.force_N = {value[0], value[1], value[2]};
-      force.turns_with_shaft = entry.flag_or("turns_with_shaft", false, "it stands still in space");
-      entry.finish();
-      shaft.forces.push_back(force);
-    }
+  for (SceneTable& entry : table.tables_if_any("forces")) {
+    GivenForce force;
+    force.effect = entry.name("effect");
+    force.port = entry.text("port");
+    const auto is_excitation = [&](const auto& excitation) { return excitation.name == force.effect; };
+    if (force.effect == effect_name::shaft_inertia ||
+        std::any_of(train.excitations.begin(), train.excitations.end(), is_excitation))
+      entry.refuse("effect", "is the name of another effect of this scene; take a name of its own");
+    const auto value = entry.quantities("force", "N", between(-1e9, 1e9), 3);
+    if (value.size() == 3) force.force_N = {value[0], value[1], value[2]};
+    force.turns_with_shaft = entry.flag_or("turns_with_shaft", false, "it stands still in space");
+    entry.finish();
+    shaft.forces.push_back(force);
+  }
 }
 
 /// A torque that is not the same at every instant, so that the train vibrates.
@@ -91,8 +89,7 @@ public:
     TrainShaftOptions shaft;
     const bool inertia_is_known = read_inertia(table, train, shaft);
     read_torques(table, train, inertia_is_known, shaft);
-    table.know("bearings");
-    if (table.has("bearings")) {
+    if (table.is_given("bearings")) {
       const auto names = table.texts("bearings");
       if (names.size() != 2 || names[0].text == names[1].text)
         table.refuse("bearings", "needs the ports of two bearings");

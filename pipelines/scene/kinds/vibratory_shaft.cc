@@ -12,8 +12,7 @@ public:
   BodyOptions read_options(SceneTable& table, const Scene&) const override {
     VibratoryShaftOptions options;
     auto& shares = options.debalance_shares;
-    table.know("debalance_shares");
-    if (!table.has("debalance_shares")) {
+    if (!table.is_given("debalance_shares")) {
       table.record_default("debalance_shares", "[0.5, 0.5]", "both debalances alike");
       return options;
     }

@@ -19,17 +19,10 @@ constexpr double most_stiffness_N_m_rad = 1e15;
 constexpr double most_ratio = 1e4;  // worm gears end at a few hundred
 const Range torques = between(-1e12, 1e12);
 
-std::optional<double> optional_quantity(SceneTable& table, const std::string& name, const std::string& unit,
-                                        const Range& range) {
-  table.know(name);
-  if (!table.has(name)) return std::nullopt;
-  return table.quantity(name, unit, range);
-}
-
 /// A value that is zero, silently, where the scene does not give it.
-double quantity_if_given(SceneTable& table, const std::string& name, const std::string& unit,
-                         const Range& range, double otherwise = 0) {
-  return optional_quantity(table, name, unit, range).value_or(otherwise);
+double quantity_or_zero(SceneTable& table, const std::string& name, const std::string& unit,
+                        const Range& range) {
+  return table.quantity_if_given(name, unit, range).value_or(0);
 }
 
 /// Names are unique over inertias and elements, and over excitations.
@@ -39,13 +32,11 @@ void refuse_second(SceneTable& table, const std::string& name, std::set<std::str
 }
 
 std::string text_if_given(SceneTable& table, const std::string& name) {
-  table.know(name);
-  return table.has(name) ? table.text(name) : "";
+  return table.is_given(name) ? table.text(name) : "";
 }
 
 bool flag_if_given(SceneTable& table, const std::string& name) {
-  table.know(name);
-  return table.has(name) && table.flag_or(name, false, "");
+  return table.is_given(name) && table.flag_or(name, false, "");
 }
 
 kinetics::TrainInertia read_inertia(SceneTable& table, std::vector<std::string>& masses_from_mesh) {
@@ -54,8 +45,7 @@ kinetics::TrainInertia read_inertia(SceneTable& table, std::vector<std::string>&
   inertia.shaft = table.name("shaft");
   if (flag_if_given(table, "from_mesh")) {
     masses_from_mesh.push_back(inertia.name);
-    table.know("inertia");
-    if (table.has("inertia"))
+    if (table.is_given("inertia"))
       table.refuse("inertia", "is given, and left to the mesh by from_mesh; keep one");
     inertia.inertia_kg_m2 = 1;  // until the mesh is there
   } else {
@@ -63,7 +53,7 @@ kinetics::TrainInertia read_inertia(SceneTable& table, std::vector<std::string>&
     if (inertia.inertia_kg_m2 > 0 && inertia.inertia_kg_m2 < 1e-15)
       table.refuse("inertia", "must be 0, or at least 1e-15 kg m2; check the number and its unit");
   }
-  inertia.damping_N_m_s = quantity_if_given(table, "damping", "N m s/rad", not_negative(1e12));
+  inertia.damping_N_m_s = quantity_or_zero(table, "damping", "N m s/rad", not_negative(1e12));
   inertia.held = flag_if_given(table, "held");
   table.finish();
   return inertia;
@@ -101,15 +91,16 @@ kinetics::TrainElement read_element(SceneTable& table) {
   if (kind != "shaft" || table.has("ratio")) element.ratio = read_ratio(table);
   element.rigid = flag_if_given(table, "rigid");
   element.stiffness_N_m_rad =
-      optional_quantity(table, "stiffness", "N m/rad", between(1e-9, most_stiffness_N_m_rad));
+      table.quantity_if_given("stiffness", "N m/rad", between(1e-9, most_stiffness_N_m_rad));
   element.stiffness_on = text_if_given(table, "stiffness_on");
-  element.damping_N_m_s = quantity_if_given(table, "damping", "N m s/rad", not_negative(1e12));
-  element.loss_factor = quantity_if_given(table, "loss_factor", "1", not_negative(10));
-  element.shear_modulus_Pa = quantity_if_given(table, "shear_modulus", "Pa", positive(1e13));
-  element.length_m = quantity_if_given(table, "length", "m", positive(1e4));
-  element.diameter_m = quantity_if_given(table, "diameter", "m", positive(100));
-  element.bore_m = quantity_if_given(table, "bore", "m", not_negative(100));
-  element.stress_concentration = quantity_if_given(table, "stress_concentration", "1", between(1, 100), 1);
+  element.damping_N_m_s = quantity_or_zero(table, "damping", "N m s/rad", not_negative(1e12));
+  element.loss_factor = quantity_or_zero(table, "loss_factor", "1", not_negative(10));
+  element.shear_modulus_Pa = quantity_or_zero(table, "shear_modulus", "Pa", positive(1e13));
+  element.length_m = quantity_or_zero(table, "length", "m", positive(1e4));
+  element.diameter_m = quantity_or_zero(table, "diameter", "m", positive(100));
+  element.bore_m = quantity_or_zero(table, "bore", "m", not_negative(100));
+  element.stress_concentration =
+      table.quantity_if_given("stress_concentration", "1", between(1, 100)).value_or(1);
   table.finish();
   return element;
 }
@@ -117,8 +108,8 @@ kinetics::TrainElement read_element(SceneTable& table) {
 /// "frequency" or "order" with "order_of".
 template <typename Course>
 void read_rate(SceneTable& table, Course& course) {
-  course.frequency_rad_s = optional_quantity(table, "frequency", "rad/s", positive(1e9));
-  course.order = optional_quantity(table, "order", "1", positive(1e6));
+  course.frequency_rad_s = table.quantity_if_given("frequency", "rad/s", positive(1e9));
+  course.order = table.quantity_if_given("order", "1", positive(1e6));
   course.order_of = text_if_given(table, "order_of");
   if (course.frequency_rad_s && course.order)
     table.refuse("order", "says the same as frequency; keep one of the two");
@@ -133,19 +124,16 @@ kinetics::TrainExcitation read_excitation(SceneTable& table) {
   kinetics::TrainExcitation excitation;
   excitation.name = table.name("name");
   excitation.inertia = table.text("inertia");
-  excitation.constant_Nm = quantity_if_given(table, "constant", "N m", torques);
-  table.know("harmonics");
-  if (table.has("harmonics"))
-    for (SceneTable& entry : table.tables("harmonics")) {
-      kinetics::TorqueHarmonic harmonic;
-      harmonic.amplitude_Nm = entry.quantity("amplitude", "N m", torques);
-      harmonic.phase_rad = quantity_if_given(entry, "phase", "rad", any_angle());
-      read_rate(entry, harmonic);
-      entry.finish();
-      excitation.harmonics.push_back(harmonic);
-    }
-  table.know("table");
-  if (table.has("table")) {
+  excitation.constant_Nm = quantity_or_zero(table, "constant", "N m", torques);
+  for (SceneTable& entry : table.tables_if_any("harmonics")) {
+    kinetics::TorqueHarmonic harmonic;
+    harmonic.amplitude_Nm = entry.quantity("amplitude", "N m", torques);
+    harmonic.phase_rad = quantity_or_zero(entry, "phase", "rad", any_angle());
+    read_rate(entry, harmonic);
+    entry.finish();
+    excitation.harmonics.push_back(harmonic);
+  }
+  if (table.is_given("table")) {
     SceneTable entry = table.table("table");
     excitation.table.torque_Nm = entry.list("torques", "N m", torques);
     read_rate(entry, excitation.table);
@@ -160,43 +148,38 @@ void read_campbell(SceneTable campbell, double speed_rad_s, TorsionScene& torsio
   torsion.fastest_rad_s = campbell.quantity_or("fastest", "rad/s", positive(1e6), 1.5 * speed_rad_s,
                                                "half as fast again as the operating speed");
   torsion.n_speeds = campbell.count_or("speeds", 2, 10'000, 16, "rows of the table");
-  campbell.know("orders");
-  if (campbell.has("orders")) torsion.orders = campbell.list("orders", "1", positive(1e6));
+  if (campbell.is_given("orders")) torsion.orders = campbell.list("orders", "1", positive(1e6));
   if (torsion.fastest_rad_s <= torsion.slowest_rad_s)
     campbell.refuse("fastest", "must exceed the slowest speed; raise it");
   campbell.finish();
 }
 
 void read_transient(SceneTable& machine, TorsionScene& torsion) {
-  machine.know("transient");
-  if (!machine.has("transient")) return;
+  if (!machine.is_given("transient")) return;
   SceneTable table = machine.table("transient");
   kinetics::TransientRun run;
   const double duration_s = table.quantity("duration", "s", positive(1e6));
   run.time_step_s = table.quantity("step", "s", positive(1e3));
   run.store_every = table.count_or("store_every", 1, 1'000'000, 1, "every step is written");
   run.with_excitations = table.flag_or("excitations", true, "the train's excitations act from t = 0");
-  run.loss_frequency_rad_s = quantity_if_given(table, "loss_frequency", "rad/s", positive(1e9));
+  run.loss_frequency_rad_s = quantity_or_zero(table, "loss_frequency", "rad/s", positive(1e9));
   const double n_steps = duration_s / run.time_step_s;
   if (n_steps > 1e8)
     table.refuse("step",
                  "makes " + shown(n_steps, 3) + " steps; at most 1e8 are followed, take a longer one");
   else if (std::isfinite(n_steps))
     run.n_steps = std::max(1L, std::lround(n_steps));
-  table.know("torques");
-  if (table.has("torques"))
-    for (SceneTable& entry : table.tables("torques")) {
-      TorsionScene::Torque torque;
-      torque.inertia = entry.text("inertia");
-      torque.time_s = entry.list("times", "s", between(0, 1e6));
-      torque.torque_Nm = entry.list("torques", "N m", torques);
-      if (torque.time_s.size() != torque.torque_Nm.size())
-        entry.refuse("torques", "has " + std::to_string(torque.torque_Nm.size()) +
-                                    " entries where times has " + std::to_string(torque.time_s.size()) +
-                                    "; give one torque for each time");
-      entry.finish();
-      torsion.torques.push_back(std::move(torque));
-    }
+  for (SceneTable& entry : table.tables_if_any("torques")) {
+    TorsionScene::Torque torque;
+    torque.inertia = entry.text("inertia");
+    torque.time_s = entry.list("times", "s", between(0, 1e6));
+    torque.torque_Nm = entry.list("torques", "N m", torques);
+    if (torque.time_s.size() != torque.torque_Nm.size())
+      entry.refuse("torques", "has " + std::to_string(torque.torque_Nm.size()) + " entries where times has " +
+                                  std::to_string(torque.time_s.size()) + "; give one torque for each time");
+    entry.finish();
+    torsion.torques.push_back(std::move(torque));
+  }
   table.finish();
   torsion.transient = run;
 }
@@ -232,7 +215,7 @@ kinetics::DriveTrain read_drive_train(SceneTable& machine, TorsionScene& torsion
   train.reference_shaft = reference.text("shaft");
   train.reference_speed_rad_s = reference.quantity("speed", "rad/s", positive(1e6));
   reference.finish();
-  train.modal_damping_ratio = quantity_if_given(machine, "modal_damping", "1", between(0, 0.999));
+  train.modal_damping_ratio = quantity_or_zero(machine, "modal_damping", "1", between(0, 0.999));
   std::set<std::string> taken, shafts;
   auto inertias = machine.tables("inertias");
   for (SceneTable& table : inertias) {

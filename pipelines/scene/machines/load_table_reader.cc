@@ -45,9 +45,7 @@ void read_constant(SceneTable& entry, kinetics::LoadTable& loads) {
 
 template <typename Read>
 void read_list(SceneTable& machine, const std::string& name, Read&& read) {
-  machine.know(name);
-  if (!machine.has(name)) return;
-  for (SceneTable& entry : machine.tables(name)) read(entry);
+  for (SceneTable& entry : machine.tables_if_any(name)) read(entry);
 }
 
 }  // namespace

@@ -52,8 +52,7 @@ void read_charge(SceneTable charge, PlanetaryMill& mill) {
   mill.charge.segment_angle_rad = charge.quantity("segment_angle", "rad", between(-pi, pi));
   std::vector<std::string> given;
   for (const char* name : {"filling", "void", "half_angle"}) {
-    charge.know(name);
-    if (charge.has(name)) given.push_back(name);
+    if (charge.is_given(name)) given.push_back(name);
   }
   if (given.empty()) {
     charge.refuse_missing(

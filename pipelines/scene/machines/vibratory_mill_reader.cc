@@ -167,8 +167,7 @@ void read_springs(SceneTable& machine, const std::vector<std::string>& effects,
     spring.position_m = pair(table, "position", "m", between(-longest_machine_m, longest_machine_m));
     spring.stiffness_N_m = pair(table, "stiffness", "N/m", not_negative(1e12));
     spring.damping_N_s_m = pair(table, "damping", "N s/m", not_negative(1e9));
-    table.know("preload");
-    if (table.has("preload")) spring.preload_N = pair(table, "preload", "N", between(-1e9, 1e9));
+    if (table.is_given("preload")) spring.preload_N = pair(table, "preload", "N", between(-1e9, 1e9));
     if (table.has("preload") != springs.front().has("preload"))
       table.refuse(
           "preload",
@@ -218,8 +217,7 @@ kinetics::Convention read_convention(SceneTable& machine) {
 }
 
 std::optional<kinetics::RunUp> read_run_up(SceneTable& machine) {
-  machine.know("run_up");
-  if (!machine.has("run_up")) return std::nullopt;
+  if (!machine.is_given("run_up")) return std::nullopt;
   SceneTable table = machine.table("run_up");
   kinetics::RunUp run;
   for (const char* name : {"from", "to", "duration", "hold", "times", "speeds"}) table.know(name);

@@ -18,13 +18,11 @@ const std::vector<std::string> keys_of_a_block = {"machine", "effects", "samplin
 constexpr double rounding_of_shares = 1e-9;
 
 std::optional<DutyStart> read_start(SceneTable& table, const Scene& scene) {
-  table.know("start");
-  if (!table.has("start")) return std::nullopt;
+  if (!table.is_given("start")) return std::nullopt;
   auto entry = table.table("start");
   DutyStart start;
   start.per_day = entry.quantity("per_day", "1", positive(86400));
-  entry.know("duration");
-  if (entry.has("duration")) {
+  if (entry.is_given("duration")) {
     start.duration_s = entry.quantity("duration", "s", positive(3600));
     if (const auto why_not = kind_of(scene.machine).why_no_run_up_of_given_duration(); !why_not.empty())
       entry.refuse("duration", why_not);
@@ -60,8 +58,7 @@ bool allow_keys(const TomlNode& set, const std::string& key, SceneFindings& find
 std::optional<TomlNode> tree_of_block(const TomlNode& tree, std::size_t block, const std::string& key,
                                       SceneTable& table, SceneFindings& findings) {
   TomlNode version = without_duty(tree);
-  table.know("set");
-  if (!table.has("set")) return version;
+  if (!table.is_given("set")) return version;
   table.table("set");  // refuses what is no table
   const auto& set = tree.find("duty")->value.items[block].find("set")->value;
   if (!allow_keys(set, key + ".set", findings)) return std::nullopt;
@@ -113,8 +110,7 @@ TomlNode without_duty(TomlNode tree) {
 }
 
 void read_duty(SceneTable& root, const TomlNode& tree, Scene& scene, SceneFindings& findings) {
-  root.know("duty");
-  if (!root.has("duty")) return;
+  if (!root.is_given("duty")) return;
   auto tables = root.tables("duty");
   if (scene.run_up) {
     root.refuse("duty",

@@ -60,9 +60,7 @@ std::optional<kinetics::Lubrication> read_lubrication(SceneTable& table) {
 
 std::vector<BearingScene> read_bearings(SceneTable& root) {
   std::vector<BearingScene> bearings;
-  root.know("bearings");
-  if (!root.has("bearings")) return bearings;
-  for (SceneTable& table : root.tables("bearings")) {
+  for (SceneTable& table : root.tables_if_any("bearings")) {
     BearingScene bearing;
     bearing.name = table.name("name");
     bearing.load = table.text("load");
@@ -73,15 +71,11 @@ std::vector<BearingScene> read_bearings(SceneTable& root) {
       bearing.element = kinetics::RollingElement::roller;
     else if (!element.empty() && element != "ball")
       table.refuse("element", "unknown rolling element; write \"ball\" or \"roller\"");
-    for (const char* key : {"reliability", "required_life", "static_rating"}) table.know(key);
-    if (table.has("reliability")) bearing.reliability = table.quantity("reliability", "1", {0.9, 0.9995});
-    if (table.has("required_life"))
-      bearing.required_life_s = table.quantity("required_life", "s", positive(1e12));
-    if (table.has("static_rating"))
-      bearing.static_rating_N = table.quantity("static_rating", "N", positive(1e9));
+    bearing.reliability = table.quantity_if_given("reliability", "1", {0.9, 0.9995});
+    bearing.required_life_s = table.quantity_if_given("required_life", "s", positive(1e12));
+    bearing.static_rating_N = table.quantity_if_given("static_rating", "N", positive(1e9));
     bearing.lubrication = read_lubrication(table);
-    table.know("speed");
-    if (table.has("speed")) bearing.speed_rad_s = table.quantity("speed", "rad/s", positive(1e6));
+    bearing.speed_rad_s = table.quantity_if_given("speed", "rad/s", positive(1e6));
     table.finish();
     bearings.push_back(std::move(bearing));
   }
@@ -100,8 +94,7 @@ LimitsScene read_limits(SceneTable table) {
   limits.resonance_margin =
       table.quantity_or("resonance_margin", "1", between(0, 0.9), limits.resonance_margin,
                         "of a drive train's excitations from its frequencies (API 671)");
-  table.know("left_out");
-  if (!table.has("left_out")) {
+  if (!table.is_given("left_out")) {
     table.finish();
     return limits;
   }

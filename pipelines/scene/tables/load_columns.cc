@@ -12,8 +12,7 @@ namespace {
 
 /// A text that is one of a few; empty if it is missing or none of them.
 std::string one_of(SceneTable& entry, const std::string& key, const std::vector<std::string>& known) {
-  entry.know(key);
-  if (!entry.has(key)) return "";
+  if (!entry.is_given(key)) return "";
   const std::string text = entry.text(key);
   if (std::find(known.begin(), known.end(), text) != known.end()) return text;
   std::string all;
@@ -27,8 +26,7 @@ TableForm read_form(SceneTable& entry) {
   const auto delimiter = one_of(entry, "delimiter", {";", ",", "tab", "blanks"});
   form.delimiter = delimiter == "tab" ? '\t' : delimiter == "blanks" ? runs_of_blanks : delimiter[0];
   form.decimal = one_of(entry, "decimal", {".", ","})[0];
-  entry.know("skip_rows");
-  if (entry.has("skip_rows")) form.skip_rows = entry.count_or("skip_rows", 0, 1'000'000, 0, "");
+  if (entry.is_given("skip_rows")) form.skip_rows = entry.count_or("skip_rows", 0, 1'000'000, 0, "");
   return form;
 }
 
@@ -137,8 +135,7 @@ LoadFileKeys read_load_file_keys(SceneTable& entry) {
   keys.file = entry.text("file");
   keys.form = read_form(entry);
   keys.turns = one_of(entry, "turns", {"average", "as they are"});
-  entry.know("columns");
-  keys.has_columns = entry.has("columns");
+  keys.has_columns = entry.is_given("columns");
   if (keys.has_columns) read_wanted(entry.table("columns"), "", keys.columns);
   entry.finish();
   return keys;

@@ -62,6 +62,11 @@ void SceneTable::know(const std::string& name) {
   findings_->forms.of_keys[without_numbers(dotted(name))];
 }
 
+bool SceneTable::is_given(const std::string& name) {
+  know(name);
+  return has(name);
+}
+
 void SceneTable::note(const std::string& name, const KeyForm& form) const {
   if (!findings_->are_noted) return;
   auto& forms = findings_->forms.of_keys[without_numbers(dotted(name))];
@@ -184,6 +189,12 @@ double SceneTable::quantity(const std::string& name, const std::string& si_unit,
       name, "is missing; add it" +
                 (si_unit == "1" ? std::string() : ", as a number in " + si_unit + " or a text with a unit"));
   return entry == nullptr ? unreadable : read_quantity(entry->value, name, si_unit, range);
+}
+
+std::optional<double> SceneTable::quantity_if_given(const std::string& name, const std::string& si_unit,
+                                                    const Range& range) {
+  if (!is_given(name)) return std::nullopt;
+  return quantity(name, si_unit, range);
 }
 
 double SceneTable::quantity_or(const std::string& name, const std::string& si_unit, const Range& range,
@@ -342,6 +353,10 @@ SceneTable SceneTable::table_or_empty(const std::string& name) {
   result.is_present_ = is_present_;
   result.at_ = at_;
   return result;
+}
+
+std::vector<SceneTable> SceneTable::tables_if_any(const std::string& name) {
+  return is_given(name) ? tables(name) : std::vector<SceneTable>();
 }
 
 std::vector<SceneTable> SceneTable::tables(const std::string& name) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,12 +59,16 @@ public:
   std::vector<TextAt> texts(const std::string& name);
   SceneTable table(const std::string& name);
   std::vector<SceneTable> tables(const std::string& name);
+  /// An array of tables that may be missing: then none.
+  std::vector<SceneTable> tables_if_any(const std::string& name);
   /// A table that may be missing: then an empty one, whose defaults are recorded.
   SceneTable table_or_empty(const std::string& name);
   /// A ratio: a number, or a text such as "-1/20".
   double ratio(const std::string& name);
 
   // Values that may be missing. A default that is taken is recorded with its reason.
+  std::optional<double> quantity_if_given(const std::string& name, const std::string& si_unit,
+                                          const Range& range);
   double quantity_or(const std::string& name, const std::string& si_unit, const Range& range, double value,
                      const std::string& reason);
   int count_or(const std::string& name, int least, int most, int value, const std::string& reason);
@@ -72,6 +77,9 @@ public:
 
   /// Makes a key known without reading it.
   void know(const std::string& name);
+  /// Makes a key known, which may be missing.
+  /// @return whether it is there
+  bool is_given(const std::string& name);
   void record_default(const std::string& name, const std::string& value, const std::string& reason);
 
   /// Reports an error at the value of that key; at the table itself if it has no such key.
