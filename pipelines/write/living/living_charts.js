@@ -24,34 +24,38 @@ function stroke(pen, colour, width, points, dash = []) {
   pen.setLineDash([]);
 }
 
-/* Series over one axis. A series has `values`, `ink`, `width`, `dash`, `label`; bands have `low` and `high`. */
-class Chart {
-  constructor(label, options = {}) {
-    this.options = options;
-    this.series = [];
-    this.bands = [];
-    this.x = [];
-    this.chosen = null;
+/* A canvas that shows what is nearest to the pointer, and chooses it where that presses or drags. */
+class PointedChart {
+  constructor(label, kind, choose) {
     this.canvas = element("canvas", { role: "img", "aria-label": label });
     this.tip = element("div", { class: "tip", hidden: true });
-    this.holder = element("div", { class: `chart ${options.kind || ""}` }, this.canvas, this.tip);
+    this.holder = element("div", { class: `chart ${kind || ""}` }, this.canvas, this.tip);
     this.canvas.addEventListener("pointermove", (event) => {
-      this.hovered = this.#nearest(event);
-      if (event.buttons && options.choose) options.choose(this.hovered);
+      this.hovered = this.nearest(event);
+      if (event.buttons && choose) choose(this.hovered);
       this.draw();
     });
-    this.canvas.addEventListener(
-      "pointerdown",
-      (event) => options.choose && options.choose(this.#nearest(event)),
-    );
+    this.canvas.addEventListener("pointerdown", (event) => choose && choose(this.nearest(event)));
     this.canvas.addEventListener("pointerleave", () => {
       this.hovered = null;
       this.draw();
     });
     charts.push(this);
   }
+}
 
-  #nearest(event) {
+/* Series over one axis. A series has `values`, `ink`, `width`, `dash`, `label`; bands have `low` and `high`. */
+class Chart extends PointedChart {
+  constructor(label, options = {}) {
+    super(label, options.kind, options.choose);
+    this.options = options;
+    this.series = [];
+    this.bands = [];
+    this.x = [];
+    this.chosen = null;
+  }
+
+  nearest(event) {
     const box = this.canvas.getBoundingClientRect();
     const [left, right] = this.#sides();
     const share = (event.clientX - box.left - left) / (box.width - left - right);
@@ -147,26 +151,14 @@ class Chart {
 }
 
 /* A force as it turns: its tip over the cycle, the turn of the instant in front. */
-class Polar {
+class Polar extends PointedChart {
   constructor(label, cycle, x, y, choose) {
+    super(label, "polar", choose);
     Object.assign(this, { cycle, x, y, chosen: 0 });
     this.largest = x.reduce((most, value, t) => Math.max(most, Math.hypot(value, y[t])), 0);
-    this.canvas = element("canvas", { role: "img", "aria-label": label });
-    this.tip = element("div", { class: "tip", hidden: true });
-    this.holder = element("div", { class: "chart polar" }, this.canvas, this.tip);
-    this.canvas.addEventListener("pointermove", (event) => {
-      this.hovered = this.#nearest(event);
-      this.draw();
-    });
-    this.canvas.addEventListener("pointerdown", (event) => choose(this.#nearest(event)));
-    this.canvas.addEventListener("pointerleave", () => {
-      this.hovered = null;
-      this.draw();
-    });
-    charts.push(this);
   }
 
-  #nearest(event) {
+  nearest(event) {
     const box = this.canvas.getBoundingClientRect();
     const [x, y] = [event.clientX - box.left - box.width / 2, box.height / 2 - (event.clientY - box.top)];
     let best = 0;
