@@ -10,29 +10,27 @@ namespace pipelines {
 const std::vector<GroupConstants>& material_groups() {
   using G = MaterialGroup;
   constexpr auto none = std::nullopt;
-  // f_W,sigma, f_W,tau | a_M, b_M | a_R, R_m,N,min | a_G, b_G | K_f~ | casting, brittle | k, k_tau, N_D, k_II
-  // ...
+  // f_W,sigma, f_W,tau | a_M, b_M | a_R, R_m,N,min | a_G, b_G | K_f~ | casting, brittle | k, N_D, k_II
   static const std::vector<GroupConstants> groups = {
-      {G::steel, "steel", 0.45, 0.577, 0.35, -0.10, 0.22, 400, 0.50, 2700, 2.0, false, false, 5, 8, 1e6, none,
-       none},
+      {G::steel, "steel", 0.45, 0.577, 0.35, -0.10, 0.22, 400, 0.50, 2700, 2.0, false, false, 5, 1e6, none},
       {G::stainless_steel, "stainless steel", 0.40, 0.577, 0.35, -0.10, 0.22, 400, 0.40, 2400, 2.0, false,
-       false, 5, 8, 1e6, 15, 25},
+       false, 5, 1e6, 15},
       {G::case_hardening_steel, "case-hardening steel", 0.40, 0.577, 0.35, -0.10, 0.22, 400, 0.50, 2700, 2.0,
-       false, false, 5, 8, 1e6, none, none},
+       false, false, 5, 1e6, none},
       {G::forging_steel, "forging steel", 0.40, 0.577, 0.35, -0.10, 0.22, 400, 0.50, 2700, 2.0, false, false,
-       5, 8, 1e6, none, none},
-      {G::cast_steel, "cast steel", 0.34, 0.577, 0.35, 0.05, 0.20, 400, 0.25, 2000, 2.0, true, false, 5, 8,
-       1e6, none, none},
+       5, 1e6, none},
+      {G::cast_steel, "cast steel", 0.34, 0.577, 0.35, 0.05, 0.20, 400, 0.25, 2000, 2.0, true, false, 5, 1e6,
+       none},
       {G::ductile_cast_iron, "ductile cast iron", 0.34, 0.65, 0.35, 0.08, 0.16, 400, 0.05, 3200, 1.5, true,
-       false, 5, 8, 1e6, none, none},
+       false, 5, 1e6, none},
       {G::malleable_cast_iron, "malleable cast iron", 0.30, 0.75, 0.35, 0.13, 0.12, 350, -0.05, 3200, 1.2,
-       true, true, 5, 8, 1e6, none, none},
-      {G::grey_cast_iron, "grey cast iron", 0.34, 1.0, 0, 0.50, 0.06, 100, -0.05, 3200, 1.0, true, true, 5, 8,
-       1e6, none, none},
+       true, true, 5, 1e6, none},
+      {G::grey_cast_iron, "grey cast iron", 0.34, 1.0, 0, 0.50, 0.06, 100, -0.05, 3200, 1.0, true, true, 5,
+       1e6, none},
       {G::wrought_aluminium, "wrought aluminium", 0.30, 0.577, 1.0, -0.04, 0.22, 133, 0.05, 850, 2.0, false,
-       false, 5, 8, 1e6, 15, 25},
+       false, 5, 1e6, 15},
       {G::cast_aluminium, "cast aluminium", 0.30, 0.75, 1.0, 0.20, 0.20, 133, -0.05, 3200, 1.2, true, false,
-       5, 8, 1e6, 15, 25}};
+       5, 1e6, 15}};
   return groups;
 }
 

@@ -43,10 +43,10 @@ struct GroupConstants {
   bool is_cast;                     ///< asks for a casting factor
   bool is_grey_or_malleable;        ///< counts as less ductile than 12.5 % elongation, whatever is measured
 
-  /// S-N curve of unwelded parts: knee N_D = 1e6 and slope k; then horizontal (type I), or falling on with
-  /// second_slope to 1e8 (type II: aluminium and austenitic steel).
-  double slope_normal, slope_shear, knee_cycles;
-  std::optional<double> second_slope_normal, second_slope_shear;
+  /// S-N curve of normal stress in unwelded parts: knee N_D = 1e6 and slope k; then horizontal (type I), or
+  /// falling on with second_slope to 1e8 (type II: aluminium and austenitic steel).
+  double slope, knee_cycles;
+  std::optional<double> second_slope;
 };
 
 /// Constants of all groups, in the order of the enumeration.

@@ -23,9 +23,7 @@ enum class LoadAmplitude { constant, variable };
 /// Exponents n of the thickness factor (table 3.5-1), as welded unless said otherwise.
 namespace thickness_exponent {
 constexpr double cruciform_or_attachment = 0.3;  ///< cruciform and T joints, attachments, ends of stiffeners
-constexpr double toe_ground = 0.2;               ///< the same with a ground toe
 constexpr double transverse_butt = 0.2;          ///< as welded
-constexpr double ground_butt_or_longitudinal = 0.1;
 }  // namespace thickness_exponent
 
 /// Factor on the FAT class: (25 mm / t)^n for t > 25 mm, else 1.

@@ -66,7 +66,7 @@ struct WeldFatigue {
   std::string name;
   std::array<double, 3> toe_m{};
   std::string type;  ///< type of weld_classes.h, or effective_notch; empty: the class is the scene's own
-  double class_Pa = 0, thickness_m = 0;                 ///< no thickness of a notch
+  double class_Pa = 0, thickness_m = 0;                 ///< a notch has no thickness: 0
   double thickness_exponent = 0, thickness_factor = 1;  ///< n and f(t) on the class (weld_fatigue.h)
   double range_Pa = 0;                                  ///< largest of the counted cycles
   double angle_rad = 0;       ///< angle of the governing direction from the toe's normal, at most 60 degrees

@@ -279,7 +279,7 @@ private:
     for (std::size_t i = 0; i < cycles.nodes.size(); ++i)
       damage_about_[cycles.nodes[i]] +=
           block.share / block.period.duration_s *
-          std::pow(rules_.limit(0, scalar(cycles.cycles[i])).utilisation, rules_.group().slope_normal);
+          std::pow(rules_.limit(0, scalar(cycles.cycles[i])).utilisation, rules_.group().slope);
   }
 
   /// @return half of the largest range
@@ -381,7 +381,7 @@ private:
     const auto counted = [&](const StressCourse& course, const DeviatoricDirection& direction) {
       return rules_.counted(course.cycles_along(direction), limit);
     };
-    const double slope = rules_.group().slope_normal;
+    const double slope = rules_.group().slope;
     const auto added = [&](const DeviatoricDirection& direction) {
       return elementary_damage(counted(sequence, direction), slope) -
              elementary_damage(counted(running, direction), slope);

@@ -162,8 +162,8 @@ double FatiguePlaces::harmonics_damage_about(std::size_t node) const {
   for (Eigen::Index i = 0; i < course_.orders().size(); ++i) {
     const Eigen::VectorXcd line = coordinates.matrix() * course_.strongest().col(i).matrix();
     const double axis_squared = (line.squaredNorm() + std::abs(line.cwiseProduct(line).sum())) / 2;
-    damage += course_.orders()[i] * std::pow(std::sqrt(axis_squared) / rules_.limit(0, {}).reversed_Pa,
-                                             rules_.group().slope_normal);
+    damage += course_.orders()[i] *
+              std::pow(std::sqrt(axis_squared) / rules_.limit(0, {}).reversed_Pa, rules_.group().slope);
   }
   return damage;
 }
@@ -254,7 +254,7 @@ CountedNode FatiguePlaces::counted(const FatigueNode& node, double duration_s) c
   const auto limit = rules_.limit(node.gradient_per_m, scalar(node.cycle));
   const auto about = [&](const DeviatoricDirection& direction) {
     return elementary_damage(rules_.counted(course.cycles_along(direction, false), limit),
-                             rules_.group().slope_normal);
+                             rules_.group().slope);
   };
   for (const auto& direction :
        damage_directions(course.coordinates(), direction_of(node.cycle.half_range_Pa), about)) {

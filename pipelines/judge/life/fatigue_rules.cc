@@ -43,7 +43,7 @@ std::vector<StressBlock> FatigueRules::counted(const std::vector<EndsOfCycle>& c
 }
 
 SnCurve FatigueRules::design_curve(const std::vector<StressBlock>& blocks) const {
-  SnCurve curve{1 / scene_.safety, group().knee_cycles, group().slope_normal, group().second_slope_normal};
+  SnCurve curve{1 / scene_.safety, group().knee_cycles, group().slope, group().second_slope};
   const bool above = std::any_of(blocks.begin(), blocks.end(), [&](const auto& block) {
     return block.amplitude_Pa > curve.knee_amplitude_Pa;
   });

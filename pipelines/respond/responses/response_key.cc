@@ -102,12 +102,6 @@ void describe(KeyText& key, const fem::UnitLoad& load) {
 
 }  // namespace
 
-std::string body_key(const fem::Body& body) {
-  KeyText key;
-  describe(key, body);
-  return key.text();
-}
-
 std::string load_key(const fem::UnitLoad& load) {
   KeyText key;
   describe(key, load);

@@ -17,10 +17,6 @@ namespace pipelines {
 std::string response_key(const fem::Body& body, const std::vector<fem::UnitLoad>& loads,
                          const std::vector<fem::SectionPlane>& planes, fem::Solver solver, int n_threads);
 
-/// Program, mesh, charts and material: what decides whether the iterative solver converges.
-/// @throws  as response_key
-std::string body_key(const fem::Body& body);
-
 /// A unit load as text: the same text, the same load to the last bit.
 std::string load_key(const fem::UnitLoad& load);
 

@@ -101,11 +101,11 @@ std::vector<std::string> fatigue_assumptions(const Judged& analysis) {
       fmt::format("safety factor {:.3g} ({}); mean-stress sensitivity {:.3f}; S-N slope {:.3g}, knee at "
                   "{:.0e} cycles",
                   scene.safety, scene.safety_reason, limit.mean_stress_sensitivity,
-                  rules.group().slope_normal, rules.group().knee_cycles));
+                  rules.group().slope, rules.group().knee_cycles));
   lines.emplace_back(
       "amplitude: half the von Mises stress of the difference of two instants; mean: signed von Mises stress "
       "of their middle, by FKM's Haigh diagram at constant stress ratio (F2)");
-  const auto& second = rules.group().second_slope_normal;
+  const auto& second = rules.group().second_slope;
   lines.push_back(fmt::format(
       "cycles by rainflow along the direction of most damage; Palmgren-Miner, damage sum 1, {}",
       second ? fmt::format("S-N slope {:.3g} behind the knee", *second)
