@@ -81,7 +81,7 @@ void keep_order(hid_t list, const std::string& file) {
 }
 
 /// The format of HDF5 1.10, which needs a third of the bytes around a small dataset. The attributes of an
-/// object stay in its header however many they are: those of the whole file are near its begin (kept_file.h).
+/// object stay in its header however many they are.
 void use_format(hid_t access, hid_t creation, const std::string& file) {
   if (H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110) < 0 ||
       H5Pset_attr_phase_change(creation, 100, 0) < 0)

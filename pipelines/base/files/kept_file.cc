@@ -12,7 +12,6 @@ namespace pipelines {
 namespace {
 
 constexpr std::size_t n_digits = 32;
-const std::string hdf5_begins = "\x89HDF\r\n\x1a\n";
 const std::string key_title = "\nmillstress key ", content_title = " content ";
 
 std::string start_of_line(std::string_view key_hash) {
@@ -68,24 +67,6 @@ KeptFile check_kept_file_of(const std::filesystem::path& file, std::string_view 
   } catch (const FileError&) {  // unreadable, or cut meanwhile
     return KeptFile::damaged;
   }
-}
-
-bool is_own_kept_file(const std::filesystem::path& file) {
-  constexpr std::size_t n_looked_at = 8192;  // HDF5 puts attributes of the whole file there
-  std::string start(n_looked_at, '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(start.data(), std::streamsize(start.size()));
-  start.resize(std::size_t(in.gcount()));
-  if (start.compare(0, hdf5_begins.size(), hdf5_begins) == 0 &&
-      start.find(kept_attribute) != std::string::npos)
-    return true;
-  std::error_code none;
-  const auto size = std::filesystem::file_size(file, none);
-  const std::size_t line = key_title.size() + n_digits + content_title.size() + n_digits + 1;
-  if (none || size < line) return false;
-  const auto end = read_end(file, size, line);
-  return end.compare(0, key_title.size(), key_title) == 0 ||
-         end.compare(key_title.size() + n_digits, content_title.size(), content_title) == 0;
 }
 
 std::string damaged_file_text(const std::filesystem::path& file) {

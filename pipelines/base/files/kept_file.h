@@ -29,13 +29,6 @@ KeptFile checked_on_first_rank(const std::filesystem::path& file, std::string_vi
 /// @param key_hash  empty: any key will do
 KeptFile check_kept_file_of(const std::filesystem::path& file, std::string_view key_hash);
 
-/// An attribute that kept HDF5 files have near their begin.
-inline constexpr const char* kept_attribute = "arrangement";
-
-/// Whether this program has written the file, whatever has become of it since: by its last line, of which one
-/// of the two titles is enough, or by the begin of an HDF5 file with `kept_attribute`.
-bool is_own_kept_file(const std::filesystem::path& file);
-
 /// Words for the user: what a damaged file is called, and what becomes of it.
 std::string damaged_file_text(const std::filesystem::path& file);
 

@@ -246,7 +246,7 @@ bool is_too_late_to_draw(const RequestedAccuracy& accuracy, std::chrono::steady_
 void write_responses(const std::filesystem::path& place, const SceneRun& run, const Judged& analysis) {
   const auto key = run.kept.keys.find(analysis.scene.name);
   if (key != run.kept.keys.end() && (is_first_rank() || analysis.responses.shared))
-    write_unit_responses(place / responses_file_names().front(), key->second, analysis.responses);
+    write_unit_responses(place / responses_file_name, key->second, analysis.responses);
 }
 
 /// Harmonics around the axis are not taken by later runs, but by those who read stress over the cycle.

@@ -238,7 +238,7 @@ void write_file(const std::filesystem::path& path, const std::string& key,
   AtomicFile file(path);
   Hdf5Writer out(file.temporary());
   out.attribute("/", "key", key);
-  out.attribute("/", kept_attribute, arrangement);
+  out.attribute("/", "arrangement", arrangement);
   out.attribute("/", "support_reaction", responses.support_reaction);
   out.attribute("/", "residual", responses.residual);
   out.attribute("/", "n_dofs", static_cast<double>(responses.n_dofs));

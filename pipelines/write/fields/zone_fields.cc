@@ -23,7 +23,7 @@ using ZoneRow = RowOf<Zone>;
 using PartRow = RowOf<ZonePart>;
 using ToeRow = RowOf<HotSpotStress>;
 
-/// Null without it: results of earlier versions lack some.
+/// Null without it.
 const Json& item_of(const Json& json, const char* key) {
   static const Json none = nullptr;
   return json.is_object() && json.contains(key) ? json.at(key) : none;
@@ -132,7 +132,7 @@ std::string damage_of_row(const Json& damage) {
   return range.is_array() && range[0].is_null() ? "no damage" : "no damage by itself, " + life_of_row(damage);
 }
 
-/// "zone 1: fillet a/b"; results of earlier versions have no number.
+/// "zone 1: fillet a/b"; the feature alone in rows that are not counted.
 std::string name_of_zone(const Json& zone) {
   const auto feature = text_of(zone, "feature");
   const auto& rank = item_of(zone, "zone");

@@ -47,9 +47,7 @@ OutputNames names_like(const std::string& form) {
 }
 
 OutputNames run_names(std::vector<std::string> bodies) {
-  return {[](const std::string& name) {
-            return name == page_name || is_run_result(name) || is_responses_file(name);
-          },
+  return {[](const std::string& name) { return name == page_name || is_run_result(name); },
           [bodies = std::move(bodies)](const std::string& folder) {
             return folder == torsion_folder || contains(bodies, folder);
           }};
@@ -62,16 +60,6 @@ bool is_run_result(const std::string& name) {
                     file);
   if (folder == torsion_folder && contains(torsion_files(), file)) return true;
   return folder.find('/') == std::string::npos && is_body_file(file);
-}
-
-bool is_responses_file(const std::string& name) {
-  const auto [folder, file] = folder_and_file(name);
-  return !folder.empty() && contains(responses_file_names(), file);
-}
-
-const std::vector<std::string>& responses_file_names() {
-  static const std::vector<std::string> names{"unit_responses.h5", "unit_harmonics.h5"};
-  return names;
 }
 
 }  // namespace pipelines

@@ -22,18 +22,14 @@ OutputNames names_of(std::vector<std::string> names);
 /// @param form  a regular expression for the whole name
 OutputNames names_like(const std::string& form);
 
-/// Allows the names of a run, and what earlier versions of it left.
+/// Allows the names of a run.
 /// @param bodies  the folders that it will write; it removes results from those of other bodies
 OutputNames run_names(std::vector<std::string> bodies);
 
 /// Whether a run gives a name to a result, but for report.html, which `report` replaces alone.
 bool is_run_result(const std::string& name);
 
-/// Whether the name is one of unit responses, which earlier versions left beside the results without listing
-/// them.
-bool is_responses_file(const std::string& name);
-
-/// The names of these in a body's folder.
-const std::vector<std::string>& responses_file_names();
+/// Unit responses in a body's folder, where the scene keeps them.
+inline constexpr const char* responses_file_name = "unit_responses.h5";
 
 }  // namespace pipelines

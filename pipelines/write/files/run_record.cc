@@ -62,7 +62,7 @@ KeptFile in_cache(const std::string& key_hash) {
 bool are_responses_whole(const FileList& files, const RunRecord& record, bool needed) {
   return std::all_of(record.responses.begin(), record.responses.end(), [&](const auto& of_body) {
     const auto state = in_cache(of_body.second);
-    const bool is_beside = files.count(of_body.first + '/' + responses_file_names().front()) > 0;
+    const bool is_beside = files.count(of_body.first + '/' + responses_file_name) > 0;
     return state == KeptFile::whole || (state == KeptFile::missing && (!needed || is_beside));
   });
 }

@@ -8,7 +8,6 @@
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/common/process_limits.h"
 #include "pipelines/base/files/atomic_file.h"
-#include "pipelines/base/files/kept_file.h"
 #include "pipelines/base/files/replaceable.h"
 #include "pipelines/write/files/manifest.h"
 #include "pipelines/write/files/run_record.h"
@@ -29,12 +28,6 @@ const std::string complete_name = ".results.complete";
                     (option.empty() ? "" : ", or choose another directory with " + option));
 }
 
-/// Pages were not listed by earlier versions.
-bool is_page_beside_list(const OpenDirectory& directory, const std::string& name, const FileList& list) {
-  return name == "report.html" && !list.empty() && list.count(name) == 0 &&
-         is_html_report(directory.path() / name);
-}
-
 /// Why a file must not be replaced or removed, as the end of a sentence; empty if it may be, or is not there.
 /// @param lists  lists of what this program has written, or has ready to take its place
 std::string why_foreign(const OpenDirectory& directory, const std::string& name,
@@ -46,11 +39,9 @@ std::string why_foreign(const OpenDirectory& directory, const std::string& name,
   if (auto why = why_not_replaceable(file); !why.empty()) return why;
   if (name == manifest_name)
     return read_manifest(directory) ? "" : "is there already, and is damaged or none of this program";
-  if (is_responses_file(name) && is_own_kept_file(file)) return "";
   for (const auto* list : lists) {
     const auto listed = list->find(name);
     if (listed != list->end() && is_as_listed(directory, name, listed->second)) return "";
-    if (is_page_beside_list(directory, name, *list)) return "";
   }
   return "is there already, and no manifest.json of this program lists it as it is";
 }
@@ -96,14 +87,6 @@ std::vector<std::string> files_below(const OpenDirectory& folder) {
   return names;
 }
 
-std::set<std::string> folders_with_results(const FileList& list) {
-  std::set<std::string> folders;
-  for (const auto& [name, file] : list)
-    if (const auto parent = fs::path(name).parent_path(); is_run_result(name) && !parent.empty())
-      folders.insert(parent.generic_string());
-  return folders;
-}
-
 /// Removes what earlier commands have left and the new list does not have, so that the directory shows one
 /// run.
 void remove_earlier(const OpenDirectory& directory, const FileList& earlier, const FileList& results) {
@@ -111,13 +94,6 @@ void remove_earlier(const OpenDirectory& directory, const FileList& earlier, con
     if (results.count(name) > 0 || !is_as_listed(directory, name, listed)) continue;
     directory.remove(name);
     directory.remove_if_empty(fs::path(name).parent_path());
-  }
-  for (const auto& folder : folders_with_results(earlier)) {
-    for (const auto& file : responses_file_names())
-      if (const auto name = folder + '/' + file;
-          results.count(name) == 0 && why_foreign(directory, name, {}).empty())
-        directory.remove(name);
-    directory.remove_if_empty(folder);
   }
 }
 

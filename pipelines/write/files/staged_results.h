@@ -8,8 +8,8 @@
 /// or `report`, moves what is still in it to its place. Before it, nothing of the earlier results is touched.
 ///
 /// What is there already is this program's if the manifest of the directory lists it with the checksum that
-/// it has, or if it has unit responses (kept_file.h). Nothing else is replaced or removed, and nothing is
-/// read or written through a link in the directory. Several commands share a directory and its manifest.
+/// it has. Nothing else is replaced or removed, and nothing is read or written through a link in the
+/// directory. Several commands share a directory and its manifest.
 #pragma once
 
 #include <filesystem>

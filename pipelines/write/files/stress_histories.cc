@@ -313,7 +313,7 @@ Stress stress_of(const Eigen::ArrayXXd& all, Index i) {
 /// @param key_hash  text_hash of their key
 std::optional<fem::UnitResponses> responses_of(const std::filesystem::path& folder,
                                                const std::string& key_hash) {
-  for (const auto& file : {folder / responses_file_names().front(), cached_file(key_hash)})
+  for (const auto& file : {folder / responses_file_name, cached_file(key_hash)})
     if (!key_hash.empty() && check_kept_file_of(file, key_hash) == KeptFile::whole)
       return read_unit_responses(file, Hdf5Reader(file).text_attribute("/", "key"));
   return std::nullopt;

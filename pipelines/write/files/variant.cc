@@ -1,9 +1,7 @@
 #include "pipelines/write/files/variant.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
-#include "pipelines/base/files/json_file.h"
 #include "pipelines/write/files/staged_results.h"
 
 namespace pipelines {
@@ -34,21 +32,6 @@ std::vector<std::string> in_fixed_order(std::vector<std::string> settings) {
   return settings;
 }
 
-/// Variant of results of an earlier version: the scene's file name, and what --set gave.
-/// @return nothing where there is no summary of a run
-std::optional<ResultsOf> of_summary(const fs::path& directory) {
-  const auto json = read_json_file(directory / "summary.json");
-  try {
-    ResultsOf of;
-    of.scene = json.at("input").at("scene").get<std::string>();
-    if (json.at("input").contains("settings"))
-      of.settings = in_fixed_order(json.at("input").at("settings").get<std::vector<std::string>>());
-    return of;
-  } catch (const nlohmann::ordered_json::exception&) {
-    return std::nullopt;
-  }
-}
-
 std::string with_settings(const std::vector<std::string>& settings) {
   std::string text;
   for (const auto& setting : settings) text += " --set '" + setting + "'";
@@ -61,11 +44,8 @@ std::string held_in(const fs::path& directory, const Variant& variant) {
   finish_exchange(directory);
   const auto opened = OpenDirectory::existing(directory);
   if (!opened || !opened->look(manifest_name)) return "";
-  if (const auto held = read_results_of(*opened)) return held_of_another(directory, *held, variant);
-  auto held = of_summary(directory);
-  if (!held) return "";
-  if (held->scene == variant.scene.filename().string()) held->scene = variant.in(directory).scene;
-  return held_of_another(directory, *held, variant);
+  const auto held = read_results_of(*opened);
+  return held ? held_of_another(directory, *held, variant) : "";
 }
 
 }  // namespace

@@ -144,9 +144,8 @@ std::string solved_by(const Json& body) {
          solver.at("reason").get<std::string>() + ")";
 }
 
-/// First of all: what the machine is judged by. Results of earlier versions have none.
+/// First of all: what the machine is judged by.
 void add_verdict(HtmlPage& page, const Json& summary) {
-  if (!summary.contains("verdict")) return;
   const auto& verdict = summary.at("verdict");
   page.verdict(verdict.at("judgement").get<std::string>(), verdict.at("headline").get<std::string>());
   std::string left_out;
@@ -367,14 +366,6 @@ std::string report_of(const std::filesystem::path& directory, const std::filesys
 
 std::string html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy) {
   return report_of(directory, accuracy, living_of(file_text(directory / living_data_name)));
-}
-
-bool is_html_report(const std::filesystem::path& file) {
-  const std::string text = file_text(file), program = "; millstress ";
-  const std::string begin = HtmlPage("").text().substr(0, 60), end = "</body>\n</html>\n";
-  return text.compare(0, begin.size(), begin) == 0 && text.size() > end.size() &&
-         text.compare(text.size() - end.size(), end.size(), end) == 0 &&
-         text.find(program) != std::string::npos;
 }
 
 void write_html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy,

@@ -15,9 +15,6 @@ namespace pipelines {
 /// @throws OptionError naming the file and the remedy if summary.json is missing or is not one
 std::string html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy);
 
-/// Whether a file is such a page, of whatever results.
-bool is_html_report(const std::filesystem::path& file);
-
 /// Writes it beside the summary, and what puts the stress together anew beside it.
 /// @param living  of the run
 /// @throws as html_report; FileError if the page cannot be written

@@ -160,11 +160,8 @@ TEST(Runs, FilesOfBodiesThatAreGoneAreRemoved) {
   ASSERT_EQ(run(whole, "--method solid --set results.keep=all"), 0);
   ASSERT_TRUE(fs::exists(out / "shaft/unit_responses.h5"));
   ASSERT_TRUE(fs::exists(out / "loads.csv"));
-  fs::copy_file(out / "shaft/unit_responses.h5",
-                out / "shaft/unit_harmonics.h5");  // as earlier versions left it
   ASSERT_EQ(run(whole, "--method solid --force"), 0);
   EXPECT_FALSE(fs::exists(out / "shaft/unit_responses.h5"));
-  EXPECT_FALSE(fs::exists(out / "shaft/unit_harmonics.h5"));
   EXPECT_FALSE(fs::exists(out / "loads.csv"));
   ASSERT_EQ(run(alone), 0);
   EXPECT_FALSE(fs::exists(out / "shaft"));

@@ -10,7 +10,6 @@
 
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/files/atomic_file.h"
-#include "pipelines/base/files/kept_file.h"
 #include "pipelines/write/files/manifest.h"
 #include "pipelines/write/files/staged_results.h"
 #include "tests/unit/pipelines/examples/results_directory.h"
@@ -35,20 +34,13 @@ inline Files visible_files(const fs::path& directory) {
 inline const std::string first_summary =
     R"({"program": {"name": "millstress"}, "bodies": {"shaft": {}, "drum": {}}, "run": "first"})";
 
-/// A file as it is kept for the next run.
-inline void keep(const fs::path& file) {
-  fs::create_directories(file.parent_path());
-  std::ofstream(file, std::ios::binary) << "kept";
-  append_checksum(file, "key");
-}
-
-/// Two bodies, one of them with a kept file.
+/// Two bodies.
 inline void write_first(StagedResults& staged) {
   write_text_file(staged.folder() / "summary.json", first_summary);
   write_text_file(staged.folder() / "report.html", "first");
   write_text_file(staged.folder() / "loads.csv", "first");
   for (const char* name : {"shaft/zones.csv", "shaft/hot_spots.csv", "shaft/cycle_003.vtu", "drum/zones.csv",
-                           "torsion/modes.csv"})
+                           "drum/unit_responses.h5", "torsion/modes.csv"})
     write_text_file(staged.folder() / name, "first");
 }
 
@@ -63,8 +55,6 @@ inline void write_second(StagedResults& staged) {
 }
 
 inline void publish_first(const fs::path& directory) {
-  keep(directory / "shaft/unit_responses.h5");
-  keep(directory / "drum/unit_responses.h5");
   StagedResults staged(directory, run_names({"shaft", "drum"}));
   write_first(staged);
   staged.publish();

@@ -76,8 +76,8 @@ TEST(StagedResults, AManifestHasToBeTheirsAndListTheFile) {
   std::ofstream(at / "unlisted/shaft/fatigue.csv") << "mine";
   checked(at / "unlisted", "unlisted/shaft/fatigue.csv: is there already, and no manifest.json");
   publish_first(at / "kept");
-  std::ofstream(at / "kept/shaft/unit_harmonics.h5") << "mine";
-  checked(at / "kept", "kept/shaft/unit_harmonics.h5: is there already");
+  std::ofstream(at / "kept/shaft/unit_responses.h5") << "mine";
+  checked(at / "kept", "kept/shaft/unit_responses.h5: is there already");
 }
 
 // What appears while a command works is looked at again before anything gets its place.

@@ -15,7 +15,6 @@
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/files/atomic_file.h"
 #include "pipelines/base/files/content_hash.h"
-#include "pipelines/base/files/kept_file.h"
 #include "pipelines/base/files/replaceable.h"
 #include "pipelines/write/files/manifest.h"
 #include "pipelines/write/files/staged_results.h"
@@ -100,7 +99,7 @@ TEST(StagedResults, ADiskThatFailsIsTold) {
 }
 
 // A kill before every single change of a name: then the earlier results are whole, or the new ones are as
-// soon as they are looked at through finish_exchange. The kept responses of a body that goes may be gone.
+// soon as they are looked at through finish_exchange.
 TEST(StagedResults, AKillAtAnyChangeLeavesOneRun) {
   const Directory at;
   publish_first(at / "finished");

@@ -64,21 +64,6 @@ TEST(Variants, OfSweepsKeepApartToo) {
   EXPECT_EQ(held_of_another(at / "out", other), "");
 }
 
-// Manifests of earlier versions do not say of which scene they are; the summary does.
-TEST(Variants, OfEarlierVersionsCountByNameAndSettings) {
-  const Directory at;
-  {
-    StagedResults staged(at / "out", run_names({}));
-    write_text_file(staged.folder() / "summary.json",
-                    R"({"program": {"name": "millstress"},)"
-                    R"( "input": {"scene": "mill.toml", "settings": ["speed=2"]}})");
-    staged.publish();
-  }
-  EXPECT_EQ(held_of_another(at / "out", {at / "mill.toml", {"speed=2"}}), "");
-  EXPECT_NE(held_of_another(at / "out", {at / "mill.toml", {}}), "");
-  EXPECT_NE(held_of_another(at / "out", {at / "drum.toml", {"speed=2"}}), "");
-}
-
 // A run of hours must not replace what another process has put there meanwhile.
 TEST(Variants, ThatCameMeanwhileAreNotReplaced) {
   const Directory at;
