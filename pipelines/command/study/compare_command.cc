@@ -1,7 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <optional>
-#include <set>
+#include <sstream>
 #include <vector>
 
 #include "pipelines/base/common/errors.h"

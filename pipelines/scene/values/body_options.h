@@ -73,7 +73,7 @@ struct TableBodyOptions {
 };
 
 /// What the scene says to one body's kind; the alternative says which kind that is, in the order of the table
-/// of kinds (loads/bodies/table.cc).
+/// of kinds (scene/kinds/table.cc; their loads: loads/bodies/table.cc).
 using BodyOptions = std::variant<VibratoryShaftOptions, ChamberOptions, DrumOptions, StubAxleOptions,
                                  TrainShaftOptions, TableBodyOptions>;
 

@@ -53,8 +53,7 @@ struct SceneRun {
 /// With effects = "auto" those are dropped that matter little (effect_choice.h). Should their bound after the
 /// solve (effect_bounds.h) exceed the limit all the same, one comes back and the bodies are run again.
 /// Leaves unit responses of solids in the user's cache. Needs an fem::Environment.
-/// @throws as load_bodies and respond, before any earlier
-/// result is touched where the scene is wrong
+/// @throws as load_bodies and respond, before any earlier result is touched where the scene is wrong
 SceneRun run_scene(const Scene& scene, const SceneRunOptions& options, StageClock& clock);
 
 }  // namespace pipelines

@@ -9,12 +9,12 @@
 
 namespace pipelines {
 
-/// Of a figure b against a: (b - a) / |a| and, by the bounds of both, the least and the most that it can be.
-/// Nothing if a is 0.
+/// How a figure b differs from a: (b - a) / |a| and, by the bounds of both, the least and the most that it
+/// can be; nothing if a is 0.
 struct Difference {
   double absolute = 0;
   std::optional<double> relative, least, most;
-  bool is_none = false;   ///< both are the same number, or alike to rounding
+  bool is_none = false;   ///< both are the same number but for rounding
   bool is_told = false;   ///< the bounds of both do not meet
   bool is_stated = true;  ///< both figures have a bound
 
@@ -23,7 +23,7 @@ struct Difference {
   std::string text() const;
 };
 
-/// Both numbers of a quantity that should agree to 12 digits are called alike.
+/// How b differs from a; numbers that agree to 12 digits are called the same.
 Difference difference(const FigureValue& a, const FigureValue& b);
 
 struct ComparedFigure {

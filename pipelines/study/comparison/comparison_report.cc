@@ -35,8 +35,9 @@ std::string value_text(const FigureValue& figure, const std::string& si_unit) {
                most = figure.most / shown.one;
   const std::string unit = si_unit == "1" ? "" : " " + shown.unit;
   const double below = value - least, above = most - value;
-  if (std::isinf(below) && std::isinf(above)) return fmt::format("{:.4g}{}", value, unit);
-  if (std::max(below, above) <= 1e-9 * std::abs(value)) return fmt::format("{:.4g}{}", value, unit);
+  const bool is_unbounded = std::isinf(below) && std::isinf(above);
+  if (is_unbounded || std::max(below, above) <= 1e-9 * std::abs(value))
+    return fmt::format("{:.4g}{}", value, unit);
   if (std::isfinite(most) && std::max(below, above) <= 1.01 * std::min(below, above))
     return fmt::format("{:.4g} +- {:.2g}{}", value, above, unit);
   return fmt::format("{:.4g}{} ({:.3g} to {})", value, unit, least,

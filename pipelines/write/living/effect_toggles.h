@@ -14,7 +14,7 @@ namespace pipelines {
 struct EffectToggle {
   std::string name;                      ///< the effect, or the group
   std::vector<std::string> effects;      ///< what it switches
-  std::vector<std::string> off;          ///< what goes with it, itself first in mind; empty: it cannot be off
+  std::vector<std::string> off;          ///< all that is off then, `effects` too; empty: it cannot be off
   std::string why;                       ///< why more is off, or why nothing can be
   std::vector<Eigen::ArrayXXd> without;  ///< signals by body; empty if it cannot be off
 };

@@ -24,7 +24,7 @@ constexpr std::size_t most_nodes = 16000;  // 5 MB with the modes of a shipped s
 constexpr double stress_tolerance = 2e-3, displacement_tolerance = 1e-2;
 constexpr Index most_modes = 48, most_displacement_modes = 12;
 
-std::string join(const std::string& body, const char* section) {
+std::string join(const std::string& body, const std::string& section) {
   return body + "/" + section;
 }
 
@@ -80,7 +80,7 @@ std::vector<float> by_rows(const Matrix& matrix) {
 void add_modes(const std::string& body, const char* name, const FieldModes& modes, Json& json,
                PackedBlock& block) {
   block.add(join(body, name), modes.values);
-  block.add(join(body, (std::string(name) + " factors").c_str()), by_rows(modes.projection));
+  block.add(join(body, name + std::string(" factors")), by_rows(modes.projection));
   json[name] = summary::object({{"rank", modes.rank},
                                 {"steps", std::vector<double>(modes.steps.begin(), modes.steps.end())},
                                 {"error", summary::number(modes.error)}});

@@ -26,7 +26,7 @@ const std::string keys_element = "<script type=\"application/json\" id=\"living-
                   data_element = "<script type=\"text/plain\" id=\"living-data\">",
                   element_end = "</script>\n";
 
-/// The largest stress among the bodies' governing ones by safety, or the first instant.
+/// The instant of the peak of the body that has the least safety; the first instant without bodies.
 Index leading_instant(const std::vector<Judged>& analyses) {
   Index instant = 0;
   double least = std::numeric_limits<double>::infinity();

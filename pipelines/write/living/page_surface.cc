@@ -8,8 +8,14 @@ namespace pipelines {
 namespace {
 
 struct Mirror {
-  int axis = -1;
+  int axis = -1;  ///< -1: none
   double place_m = 0, tolerance_m = 0;
+
+  /// 1 above the plane, -1 below it, 0 on it.
+  int side(double at_m) const {
+    const double above_m = at_m - place_m;
+    return std::abs(above_m) <= tolerance_m ? 0 : above_m > 0 ? 1 : -1;
+  }
 };
 
 /// The plane between a node and its image, if their images are all that the page needs to show a half.
@@ -56,6 +62,44 @@ double middle_m(const fem::Nodes& nodes, std::size_t face, int axis) {
   return sum_m / double(nodes.nodes_per_face());
 }
 
+/// Faces in the order in which the page has them: those above the mirror's plane, whose images are not
+/// listed, then those that are their own image; without a mirror all.
+/// @param n_doubled  takes the number of the first
+std::vector<std::size_t> listed_faces(const fem::Nodes& nodes, const Mirror& mirror, std::size_t& n_doubled) {
+  std::vector<std::size_t> doubled, others;
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
+    const int side = mirror.axis < 0 ? 0 : mirror.side(middle_m(nodes, f, mirror.axis));
+    if (side >= 0) (side > 0 ? doubled : others).push_back(f);
+  }
+  n_doubled = doubled.size();
+  doubled.insert(doubled.end(), others.begin(), others.end());
+  return doubled;
+}
+
+/// The node that stands for a node and its image: that above the plane, or on it the one of the lower number.
+std::int32_t kept_of_pair(std::int32_t node, const fem::Nodes& nodes, const std::vector<std::int32_t>& image,
+                          const Mirror& mirror) {
+  if (mirror.axis < 0) return node;
+  const auto other = image[std::size_t(node)];
+  const int side = mirror.side(nodes.xyz_m[3 * std::size_t(node) + std::size_t(mirror.axis)]);
+  return side == 0 ? std::min(node, other) : side > 0 ? node : other;
+}
+
+/// Enters the nodes of corners, each once and ascending.
+/// @return their positions, by node of the body
+std::vector<std::uint32_t> enter_nodes(const std::vector<std::int32_t>& corners, std::size_t n,
+                                       PageSurface& surface) {
+  std::vector<char> is_kept(n, 0);
+  for (const auto node : corners) is_kept[std::size_t(node)] = 1;
+  std::vector<std::uint32_t> position(n, 0);
+  for (std::size_t node = 0; node < n; ++node) {
+    if (!is_kept[node]) continue;
+    position[node] = std::uint32_t(surface.nodes.size());
+    surface.nodes.push_back(std::int32_t(node));
+  }
+  return position;
+}
+
 }  // namespace
 
 PageSurface page_surface(const fem::Nodes& nodes, const fem::MirrorImages& images, std::size_t most_nodes) {
@@ -68,44 +112,16 @@ PageSurface page_surface(const fem::Nodes& nodes, const fem::MirrorImages& image
   const auto mirror = has_image ? mirror_of(nodes, images.node) : Mirror();
   surface.mirror_axis = mirror.axis;
   surface.mirror_at_m = mirror.place_m;
-  std::vector<std::size_t> doubled, others;  // faces above the plane, and those that are their own image
-  for (std::size_t f = 0; f < nodes.n_faces(); ++f) {
-    if (mirror.axis < 0) {
-      others.push_back(f);
-      continue;
-    }
-    const double side_m = middle_m(nodes, f, mirror.axis) - mirror.place_m;
-    if (side_m > mirror.tolerance_m) doubled.push_back(f);
-    if (std::abs(side_m) <= mirror.tolerance_m) others.push_back(f);
-  }
-  surface.n_doubled = doubled.size();
-  doubled.insert(doubled.end(), others.begin(), others.end());
-
-  // A node stands for itself and its image: that above the plane, or on it the one of the lower number.
-  const auto stands_for = [&](std::int32_t node) {
-    if (mirror.axis < 0) return node;
-    const auto image = images.node[std::size_t(node)];
-    const double side_m = nodes.xyz_m[3 * std::size_t(node) + std::size_t(mirror.axis)] - mirror.place_m;
-    if (std::abs(side_m) <= mirror.tolerance_m) return std::min(node, image);
-    return side_m > 0 ? node : image;
-  };
-  std::vector<char> is_kept(nodes.n, 0);
-  for (const auto f : doubled)
-    for (std::size_t i = 0; i < surface.nodes_per_face; ++i)
-      is_kept[std::size_t(stands_for(shown.node(f, i)))] = 1;
-  std::vector<std::uint32_t> position(nodes.n, 0);
-  for (std::size_t node = 0; node < nodes.n; ++node)
-    if (is_kept[node]) {
-      position[node] = std::uint32_t(surface.nodes.size());
-      surface.nodes.push_back(std::int32_t(node));
-    }
-  const auto n_kept = std::uint32_t(surface.nodes.size());
-  for (const auto f : doubled)
+  std::vector<std::int32_t> corners, kept;
+  for (const auto f : listed_faces(nodes, mirror, surface.n_doubled))
     for (std::size_t i = 0; i < surface.nodes_per_face; ++i) {
-      const auto node = shown.node(f, i);
-      const auto kept = stands_for(node);
-      surface.faces.push_back(position[std::size_t(kept)] + (kept == node ? 0 : n_kept));
+      corners.push_back(shown.node(f, i));
+      kept.push_back(kept_of_pair(corners.back(), nodes, images.node, mirror));
     }
+  const auto position = enter_nodes(kept, nodes.n, surface);
+  const auto n_kept = std::uint32_t(surface.nodes.size());
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    surface.faces.push_back(position[std::size_t(kept[i])] + (kept[i] == corners[i] ? 0 : n_kept));
   return surface;
 }
 
