@@ -76,6 +76,20 @@ void write_page(const std::filesystem::path& study) {
     publish_html_report(run, study);
 }
 
+std::vector<std::string> names_of_body(const std::string& name) {
+  return {name + ".txt", name + ".csv", name + "_gci.csv", name + ".png"};
+}
+
+/// @throws OptionError if something that a study writes, the page of the run beside it too, is another's
+void require_own_files(const std::filesystem::path& directory, const Scene& scene) {
+  std::vector<std::string> names{"accuracy.h5"};
+  for (const auto& body : scene.bodies)
+    for (const auto& name : names_of_body(body.name)) names.push_back(name);
+  require_own_outputs(directory, names_of(names));
+  if (has_run(directory.parent_path()))
+    require_own_outputs(directory.parent_path(), names_of({"report.html"}));
+}
+
 void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
   const Scene scene = read_scene(options.scene, options.settings);
   if (scene.bodies.empty())
@@ -84,15 +98,7 @@ void accuracy(const AccuracyCommandOptions& options, std::ostream& out) {
   AccuracyOptions study_options = study_options_of(options, scene);
   const auto variant = variant_of(options);
   const auto directory = own_directory(options.output, default_directory(options), variant) / "accuracy";
-  const auto names_of_body = [](const std::string& name) {
-    return std::vector<std::string>{name + ".txt", name + ".csv", name + "_gci.csv", name + ".png"};
-  };
-  std::vector<std::string> names{"accuracy.h5"};
-  for (const auto& body : scene.bodies)
-    for (const auto& name : names_of_body(body.name)) names.push_back(name);
-  require_own_outputs(directory, names_of(names));
-  if (has_run(directory.parent_path()))
-    require_own_outputs(directory.parent_path(), names_of({"report.html"}));
+  require_own_files(directory, scene);
   StageClock clock(progress_on_stderr(options.verbosity()));
   const fem::Environment environment(options.n_threads);
   std::vector<AccuracyStudy> studies;

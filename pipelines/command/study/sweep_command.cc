@@ -357,6 +357,43 @@ std::vector<SweepRow> run_points(const SweepCommandOptions& options, const Sweep
   return rows;
 }
 
+std::size_t n_of(const std::vector<SweepRow>& rows, bool (*is_one)(const SweepRow&)) {
+  return std::size_t(std::count_if(rows.begin(), rows.end(), is_one));
+}
+
+bool is_refused(const SweepRow& row) {
+  return !row.refused.empty();
+}
+
+/// Points that need a look at their rows.
+void print_troubles(std::ostream& out, const std::vector<SweepRow>& rows) {
+  if (const auto n = n_of(rows, is_refused); n > 0)
+    out << fmt::format("\n  {} of {} points were refused: the column says why\n", n, rows.size());
+  const auto n = n_of(rows, [](const SweepRow& row) { return row.figure("loads.warnings") > 0; });
+  if (n > 0)
+    out << fmt::format(
+        "\n  {} of {} points have warnings, as many as the column loads.warnings says: `run` or "
+        "`loads` with a point's --set tells them\n",
+        n, rows.size());
+}
+
+/// @throws StageRefused if no point could be computed; ToleranceNotMet if points are known less well than was
+///         asked (the default's tolerance, for which nobody asked, is a warning)
+void require_known(const Sweep& sweep, const std::vector<SweepRow>& rows) {
+  if (n_of(rows, is_refused) == rows.size())
+    throw StageRefused("no point could be computed: " + rows.front().refused);
+  const auto& accuracy = sweep.accuracy;
+  const auto n_worse =
+      sweep.loads_only || accuracy.tolerance <= 0 ? 0 : n_known_worse(rows, accuracy.tolerance);
+  if (n_worse == 0) return;
+  const auto text = fmt::format(
+      "{} of {} points are known less well than {:g} %: a mesh that is searched for them "
+      "does better (run them by themselves, or begin the sweep at one of them)",
+      n_worse, rows.size(), 100 * accuracy.tolerance);
+  if (!accuracy.by_default) throw ToleranceNotMet(text + "; the results are kept");
+  std::cerr << "millstress: " << text << '\n';
+}
+
 void carry_out(const SweepCommandOptions& options, std::ostream& out) {
   const Sweep sweep(options);
   const auto& [tree, settings, request, plan, variant, directory, first, accuracy, loads_only] = sweep;
@@ -393,31 +430,12 @@ void carry_out(const SweepCommandOptions& options, std::ostream& out) {
     print_points(out, plan, rows, figures);
     print_extremes(out, options, plan, rows, figures);
     if (request.zones) print_zones(out, rows, numbers);
-    const auto n_refused =
-        std::count_if(rows.begin(), rows.end(), [](const auto& row) { return !row.refused.empty(); });
-    if (n_refused > 0)
-      out << fmt::format("\n  {} of {} points were refused: the column says why\n", n_refused, rows.size());
-    const auto n_warned = std::count_if(rows.begin(), rows.end(),
-                                        [](const auto& row) { return row.figure("loads.warnings") > 0; });
-    if (n_warned > 0)
-      out << fmt::format(
-          "\n  {} of {} points have warnings, as many as the column loads.warnings says: `run` or "
-          "`loads` with a point's --set tells them\n",
-          n_warned, rows.size());
+    print_troubles(out, rows);
     out << "\n  sweep.csv, sweep.h5" << (request.zones ? ", zones.csv" : "");
     for (const auto& file : charts) out << ", " << file;
     out << " in " << directory.string() << '\n';
   }
-  if (std::all_of(rows.begin(), rows.end(), [](const auto& row) { return !row.refused.empty(); }))
-    throw StageRefused("no point could be computed: " + rows.front().refused);
-  const auto n_worse = loads_only || accuracy.tolerance <= 0 ? 0 : n_known_worse(rows, accuracy.tolerance);
-  if (n_worse == 0) return;
-  const auto text = fmt::format(
-      "{} of {} points are known less well than {:g} %: a mesh that is searched for them "
-      "does better (run them by themselves, or begin the sweep at one of them)",
-      n_worse, rows.size(), 100 * accuracy.tolerance);
-  if (!accuracy.by_default) throw ToleranceNotMet(text + "; the results are kept");
-  std::cerr << "millstress: " << text << '\n';
+  require_known(sweep, rows);
 }
 
 }  // namespace
