@@ -9,6 +9,11 @@
 namespace pipelines {
 namespace {
 
+std::array<double, 3> vector_seen_from(double angle_rad, const double* u) {
+  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+  return {c * u[0] + s * u[1], c * u[1] - s * u[0], u[2]};
+}
+
 /// xx, yy, zz, xy, yz, xz in axes that are turned by the angle about z.
 std::array<double, 6> seen_from(double angle_rad, const double* s) {
   const double c = std::cos(angle_rad), n = std::sin(angle_rad);
@@ -98,40 +103,33 @@ std::array<double, 3> CirclePatch::position_m(const PatchLocation& at) const {
   return {r * std::cos(at.angle_rad), r * std::sin(at.angle_rad), z};
 }
 
-std::vector<double> CirclePatch::unit_stress_Pa(const PatchLocation& at) const {
+template <std::size_t n, typename Unit>
+std::vector<double> CirclePatch::interpolated(const PatchLocation& at, const Unit& unit,
+                                              std::array<double, n> (*turned)(double, const double*)) const {
   const auto along = weights_along(at.along_m);
   const auto around = weights_around(at.angle_rad);
   const std::size_t n_channels = responses_.channels.size();
-  std::vector<double> result(6 * n_channels, 0);
+  std::vector<double> result(n * n_channels, 0);
   for (std::size_t i = 0; i < 3; ++i)
     for (int j = 0; j < n_angles_; ++j) {
-      // Turned with the half plane to the place's own.
       const double turn = 2 * pi * j / n_angles_ - at.angle_rad, weight = along[i] * around[std::size_t(j)];
-      const double* unit = responses_.unit_stress_Pa(node(i, j));
+      const double* own = unit(node(i, j));
       for (std::size_t k = 0; k < n_channels; ++k) {
-        const auto turned = seen_from(turn, unit + 6 * k);
-        for (std::size_t c = 0; c < 6; ++c) result[6 * k + c] += weight * turned[c];
+        const auto values = turned(turn, own + n * k);
+        for (std::size_t c = 0; c < n; ++c) result[n * k + c] += weight * values[c];
       }
     }
   return result;
 }
 
+std::vector<double> CirclePatch::unit_stress_Pa(const PatchLocation& at) const {
+  return interpolated(
+      at, [&](std::size_t node) { return responses_.unit_stress_Pa(node); }, seen_from);
+}
+
 std::vector<double> CirclePatch::unit_displacement_m(const PatchLocation& at) const {
-  const auto along = weights_along(at.along_m);
-  const auto around = weights_around(at.angle_rad);
-  const std::size_t n_channels = responses_.channels.size();
-  std::vector<double> result(3 * n_channels, 0);
-  for (std::size_t i = 0; i < 3; ++i)
-    for (int j = 0; j < n_angles_; ++j) {
-      const double turn = 2 * pi * j / n_angles_ - at.angle_rad, weight = along[i] * around[std::size_t(j)];
-      const double c = std::cos(turn), s = std::sin(turn);
-      const double* unit = responses_.unit_displacement_m(node(i, j));
-      for (std::size_t k = 0; k < n_channels; ++k) {
-        const double *u = unit + 3 * k, sum[3] = {c * u[0] + s * u[1], c * u[1] - s * u[0], u[2]};
-        for (std::size_t d = 0; d < 3; ++d) result[3 * k + d] += weight * sum[d];
-      }
-    }
-  return result;
+  return interpolated(
+      at, [&](std::size_t node) { return responses_.unit_displacement_m(node); }, vector_seen_from);
 }
 
 }  // namespace pipelines

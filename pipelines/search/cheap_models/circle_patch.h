@@ -45,6 +45,12 @@ private:
   std::array<double, 3> weights_along(double along_m) const;
   /// Weights of the nodes of a circle.
   std::vector<double> weights_around(double angle_rad) const;
+  /// The nodes' unit values at a place, each turned with its half plane to the place's own.
+  /// @param unit    n values of a node for every channel
+  /// @param turned  these in axes that are turned by an angle [rad] about z
+  template <std::size_t n, typename Unit>
+  std::vector<double> interpolated(const PatchLocation& at, const Unit& unit,
+                                   std::array<double, n> (*turned)(double angle_rad, const double*)) const;
 
   const fem::UnitResponses& responses_;
   int n_angles_;
