@@ -124,12 +124,12 @@ std::vector<double> CirclePatch::interpolated(const PatchLocation& at, const Uni
 
 std::vector<double> CirclePatch::unit_stress_Pa(const PatchLocation& at) const {
   return interpolated(
-      at, [&](std::size_t node) { return responses_.unit_stress_Pa(node); }, seen_from);
+      at, [&](std::size_t i) { return responses_.unit_stress_Pa(i); }, seen_from);
 }
 
 std::vector<double> CirclePatch::unit_displacement_m(const PatchLocation& at) const {
   return interpolated(
-      at, [&](std::size_t node) { return responses_.unit_displacement_m(node); }, vector_seen_from);
+      at, [&](std::size_t i) { return responses_.unit_displacement_m(i); }, vector_seen_from);
 }
 
 }  // namespace pipelines

@@ -31,14 +31,6 @@ struct SceneRun {
   std::vector<Judged> analyses;  ///< in the order of Scene::bodies, or of the only body
   KeptResponses kept;            ///< unit responses of solids in the user's cache
 
-  // In the .cc file: else every file that copies one compiles the copies of all members anew.
-  SceneRun();
-  SceneRun(const SceneRun&);
-  SceneRun(SceneRun&&) noexcept;
-  SceneRun& operator=(const SceneRun&);
-  SceneRun& operator=(SceneRun&&) noexcept;
-  ~SceneRun();
-
   /// False if a tolerance was asked for and is not reached.
   bool met() const;
 

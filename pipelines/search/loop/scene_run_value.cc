@@ -4,13 +4,6 @@
 
 namespace pipelines {
 
-SceneRun::SceneRun() = default;
-SceneRun::SceneRun(const SceneRun&) = default;
-SceneRun::SceneRun(SceneRun&&) noexcept = default;
-SceneRun& SceneRun::operator=(const SceneRun&) = default;
-SceneRun& SceneRun::operator=(SceneRun&&) noexcept = default;
-SceneRun::~SceneRun() = default;
-
 bool SceneRun::met() const {
   return std::all_of(analyses.begin(), analyses.end(), [](const auto& a) { return a.search.met; });
 }
