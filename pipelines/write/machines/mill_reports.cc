@@ -18,12 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What a scene with a run-up has to be told of figures that are not of it.
-std::string steady_only(const Scene& scene, const std::string& what) {
-  return fmt::format("{} steady running at {:.4g} rpm; the scene's run-up ", what,
-                     scene.vibratory_mill().speed_rad_s * 30 / pi);
-}
-
 double degrees(double angle_rad) {
   return angle_rad * 180 / pi;
 }
@@ -70,9 +64,10 @@ void print_extremes(std::ostream& out, const Scene& scene, bool json) {
   }
   if (json) out << list.dump(2) << '\n';
   if (!json && scene.run_up)
-    out << "  warning: "
-        << steady_only(scene, "least and largest over all angles are of") +
-               "may exceed them: it has columns of its own\n";
+    out << fmt::format(
+        "  warning: least and largest over all angles are of steady running at {:.4g} rpm; the scene's "
+        "run-up may exceed them: it has columns of its own\n",
+        mill->speed_rad_s * 30 / pi);
 }
 
 }  // namespace pipelines
