@@ -307,22 +307,6 @@ std::string text_of_value(const TomlNode& node) {
   return "";
 }
 
-void add_texts(const TomlNode& node, const std::string& key, std::map<std::string, std::string>& texts) {
-  const auto has_parts = [](const TomlNode& item) {
-    return item.kind == TomlNode::Kind::table || item.kind == TomlNode::Kind::array;
-  };
-  if (node.kind == TomlNode::Kind::table) {
-    for (const auto& entry : node.entries)
-      add_texts(entry.value, key.empty() ? entry.key : key + "." + entry.key, texts);
-  } else if (node.kind == TomlNode::Kind::array &&
-             std::any_of(node.items.begin(), node.items.end(), has_parts)) {
-    std::size_t number = 0;
-    for (const auto& item : node.items) add_texts(item, key + "[" + std::to_string(++number) + "]", texts);
-  } else {
-    texts[key] = text_of_value(node);
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> set_keys(TomlNode& root, const std::vector<std::string>& settings,
@@ -339,9 +323,27 @@ void set_entries(TomlNode& root, const TomlNode& table, const std::string& key,
   apply_all(all, root);
 }
 
+void for_each_value(const TomlNode& node, const ValueListener& listener, const std::string& key) {
+  const auto has_parts = [](const TomlNode& item) {
+    return item.kind == TomlNode::Kind::table || item.kind == TomlNode::Kind::array;
+  };
+  if (node.kind == TomlNode::Kind::table) {
+    for (const auto& entry : node.entries)
+      for_each_value(entry.value, listener, key.empty() ? entry.key : key + "." + entry.key);
+  } else if (node.kind == TomlNode::Kind::array &&
+             std::any_of(node.items.begin(), node.items.end(), has_parts)) {
+    std::size_t number = 0;
+    for (const auto& item : node.items)
+      for_each_value(item, listener, key + "[" + std::to_string(++number) + "]");
+  } else {
+    listener(key, node);
+  }
+}
+
 std::map<std::string, std::string> texts_by_key(const TomlNode& root) {
   std::map<std::string, std::string> texts;
-  add_texts(root, "", texts);
+  for_each_value(root,
+                 [&](const std::string& key, const TomlNode& value) { texts[key] = text_of_value(value); });
   return texts;
 }
 

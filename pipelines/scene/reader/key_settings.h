@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -33,6 +34,13 @@ std::vector<std::string> set_keys(TomlNode& root, const std::vector<std::string>
 /// @throws SceneError as set_keys, at the value's place
 void set_entries(TomlNode& root, const TomlNode& table, const std::string& key,
                  const std::filesystem::path& file);
+
+using ValueListener = std::function<void(const std::string& key, const TomlNode& value)>;
+
+/// Every value of a scene with its key as messages name it, in the order of the file. An array of plain
+/// values is one value.
+/// @param key  of the node; the root has none
+void for_each_value(const TomlNode& node, const ValueListener& listener, const std::string& key = "");
 
 /// Every value of a scene as a text, by its key as messages name it. Arrays of plain values are one text.
 std::map<std::string, std::string> texts_by_key(const TomlNode& root);

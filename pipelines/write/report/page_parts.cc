@@ -9,6 +9,7 @@
 
 #include "pipelines/base/files/toml_tree.h"
 #include "pipelines/base/names/typography.h"
+#include "pipelines/scene/reader/key_settings.h"
 #include "pipelines/write/exports/markup.h"
 
 namespace pipelines {
@@ -76,26 +77,6 @@ std::string card(const std::string& name, const Json& body, const Json& verdict)
       findings);
 }
 
-/// "machine.drive.speed" and "1450 rpm" of every key, in the order of the file.
-void add_keys(const TomlNode& node, const std::string& name, std::vector<std::vector<std::string>>& rows) {
-  const auto is_inner = [](const TomlNode& inner) {
-    return inner.kind == TomlNode::Kind::table || inner.kind == TomlNode::Kind::array;
-  };
-  if (node.kind == TomlNode::Kind::table) {
-    for (const auto& entry : node.entries)
-      add_keys(entry.value, name.empty() ? entry.key : name + "." + entry.key, rows);
-    return;
-  }
-  std::vector<TomlNode> items;
-  if (node.kind == TomlNode::Kind::array) items.assign(node.items.begin(), node.items.end());
-  if (std::any_of(items.begin(), items.end(), is_inner)) {
-    for (std::size_t i = 0; i < items.size(); ++i)
-      add_keys(items[i], name + "[" + std::to_string(i + 1) + "]", rows);
-    return;
-  }
-  rows.push_back({name, node.as_written});
-}
-
 std::string names_in(const Json& effects) {
   std::string names;
   for (const auto& effect : effects)
@@ -108,7 +89,9 @@ void add_scene(HtmlPage& page, const std::string& scene) {
   page.folded("Every input of the scene", [&] {
     ShownRows rows{{"key", "as it is written"}, {}};
     try {
-      add_keys(parse_toml(scene), "", rows.cells);
+      for_each_value(parse_toml(scene), [&](const std::string& key, const TomlNode& value) {
+        rows.cells.push_back({key, value.as_written});
+      });
     } catch (const TomlSyntaxError&) {  // cut, or of another version: the text below still says it
       return;
     }
