@@ -21,7 +21,6 @@ struct FreeBodyLoad {
 struct FreeBody {
   Eigen::ArrayXd time_s, phi_rad;  ///< phi clockwise
   Eigen::Array2Xd pivot_m;         ///< E' from the shaft's axis E
-  Eigen::Array2Xd charge_m;        ///< centre of the charge, from E'
   /// "bearing" (B, the eccentric's force through E'), "spring 1", ...; "weight of structure", "... exciter",
   /// "... charge"; "inertia of structure" (with its pitch), "... exciter", "... charge", and
   /// "inertia of charge in pitch" at C: those that an effect brings.

@@ -72,7 +72,6 @@ FreeBody chamber_free_body(const VibratoryMill& mill, const std::vector<std::str
   body.time_s = history.time_s;
   body.phi_rad = history.phi_rad;
   body.pivot_m = mill.eccentricity_m * motion.along_phi;
-  body.charge_m = vibratory::position(mill, {Place::charge_centre, 0, {}, {}}, motion);
   const auto n = history.n_instants();
   FreeBodyLoad bearing{"bearing", Eigen::Array2Xd::Zero(2, n), Eigen::Array2Xd(2, n),
                        Eigen::ArrayXd::Zero(n)};

@@ -14,8 +14,6 @@
 namespace pipelines {
 namespace {
 
-constexpr double seconds_per_hour = 3600;
-
 /// Hours of a bearing over all operating blocks or in running, the modified life where the scene asks for it;
 /// none: never loaded.
 std::optional<double> life_h(const RunReport& report, std::size_t i) {
