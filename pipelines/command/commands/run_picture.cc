@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "pipelines/base/common/process_limits.h"
 #include "pipelines/base/common/several_ranks.h"
 #include "pipelines/base/files/atomic_file.h"
 #include "pipelines/base/names/typography.h"
