@@ -49,7 +49,8 @@ std::string findings_of(const Json& part) {
   return lines.empty() ? "" : "<ul>" + lines + "</ul>";
 }
 
-std::string card(const std::string& name, const Json& body, const Json& verdict) {
+/// @param parts  of the verdict
+std::string card(const std::string& name, const Json& body, const Json& parts) {
   const auto& governing = body.at("governing");
   const double stress_Pa = governing.at("value").get<double>();
   const auto& total = governing.at("error").at("total");
@@ -57,8 +58,8 @@ std::string card(const std::string& name, const Json& body, const Json& verdict)
   const auto& strength = body.at("yield_strength").at("value");
   const auto safety = governing.at("safety_against_yield");
   std::string judgement, findings;
-  if (verdict.contains("parts") && verdict.at("parts").contains(name)) {
-    const auto& part = verdict.at("parts").at(name);
+  if (parts.contains(name)) {
+    const auto& part = parts.at(name);
     judgement = part.at("judgement").get<std::string>();
     findings = findings_of(part);
   }
@@ -104,10 +105,9 @@ void add_scene(HtmlPage& page, const std::string& scene) {
 
 void add_cards(HtmlPage& page, const Json& summary) {
   if (!summary.contains("bodies")) return;
-  const Json none = Json::object();
   std::string cards;
   for (const auto& [name, body] : summary.at("bodies").items())
-    cards += card(name, body, summary.contains("verdict") ? summary.at("verdict") : none);
+    cards += card(name, body, summary.at("verdict").at("parts"));
   page.markup("<div class=\"cards\">\n" + cards + "</div>\n");
 }
 

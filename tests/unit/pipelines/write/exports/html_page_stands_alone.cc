@@ -51,6 +51,7 @@ const char* const one_body = R"({
   "program": {"version": "0"}, "warnings": [], "bearings": {}, "timing": {}, "loads": {},
   "input": {"title": "t", "scene": "s.toml", "hash": "h", "machine": "load_table", "turns": 1,
             "instants_per_turn": 8},
+  "verdict": {"judgement": "OK", "headline": "OK", "parts": {}},
   "bodies": {"shaft": {
     "method": "axisymmetric", "dofs": 1, "mass": {"value": 1}, "solver": {}, "material": "C45",
     "yield_strength": {"value": 305e6},

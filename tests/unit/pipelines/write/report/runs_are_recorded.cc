@@ -25,7 +25,7 @@ namespace {
 const std::string summary_text =
     R"({"program": {"name": "millstress", "version": "1"}, "input": {"scene": "a.toml", "title": "a",
         "hash": "1", "machine": "load_table", "turns": 1, "instants_per_turn": 24}, "warnings": [],
-        "loads": {}, "bodies": {}})";
+        "verdict": {"judgement": "OK", "headline": "OK", "parts": {}}, "loads": {}, "bodies": {}})";
 
 const RunRecord record{"key", {{"shaft", text_hash("responses")}}, {"no picture: why"}, "\n a table\n  b\n"};
 
