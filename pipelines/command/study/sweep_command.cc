@@ -42,6 +42,7 @@ void refuse_without_use(bool is_given, const char* option, const char* why) {
 
 SweepRequest requested(const SweepCommandOptions& options, SweepRequest request) {
   if (!options.vary.empty()) request.vary = options.vary;
+  if (!options.figures.empty()) request.figures = options.figures;
   if (!options.design.empty()) request.design = sweep_design(options.design);
   if (options.n_points > 0) request.n_points = options.n_points;
   if (options.seed >= 0) request.seed = std::uint64_t(options.seed);
@@ -375,7 +376,7 @@ void carry_out(const SweepCommandOptions& options, std::ostream& out) {
   });
   std::vector<std::string> figures;
   try {
-    figures = shown_figures(options.figures, rows);
+    figures = shown_figures(request.figures, rows);
   } catch (const OptionError&) {  // whose remedy is sweep.csv
     staged.publish();
     throw;
@@ -440,7 +441,8 @@ void add_sweep_command(CLI::App& app, ChosenCommand& chosen) {
                     "the stress zones of every point, followed from point to point");
   command
       ->add_option("--figure", options->figures,
-                   "to print and draw, a column of sweep.csv; may be repeated (default: governing stresses)")
+                   "to print and draw, a column of sweep.csv; may be repeated (default: the scene's, or "
+                   "governing stresses)")
       ->allow_extra_args(false);
   command->add_option("-o,--output", options->output, "result directory (default: results/<scene>_sweep)");
   command->add_option("--tolerance", options->tolerance,
