@@ -10,6 +10,7 @@
 #include "pipelines/base/common/process_limits.h"
 #include "pipelines/base/fields/shown_unit.h"
 #include "pipelines/command/study/sweep_table.h"
+#include "pipelines/study/variations/figure_words.h"
 #include "pipelines/write/drawing/chart.h"
 
 namespace pipelines {

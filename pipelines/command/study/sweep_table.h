@@ -22,10 +22,6 @@ std::vector<std::string> shown_figures(const std::vector<std::string>& named,
 
 /// SI unit of a figure, from the first row that has it; empty if none has it.
 std::string unit_of(const std::vector<SweepRow>& rows, const std::string& figure);
-/// A figure in words: "R_A, largest", "shaft: governing stress"; of an unknown form as it is.
-std::string figure_in_words(const std::string& figure);
-/// A key of the scene in words: "carrier initial angle".
-std::string key_in_words(const std::string& key);
 std::string with_unit(const std::string& name, const std::string& unit);
 
 /// Keys that change no figure of any two points that differ by them alone; none of a Latin hypercube's.

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 #include <vtkLookupTable.h>
-#include <vtkNew.h>
+#include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 
@@ -26,9 +26,9 @@ constexpr std::array<Colour, 9> light_to_dark{{{244, 241, 228},
 
 }  // namespace
 
-vtkSmartPointer<vtkLookupTable> colours_over(const std::array<double, 2>& range) {
+std::shared_ptr<vtkLookupTable> colours_over(const std::array<double, 2>& range) {
   constexpr int n = 256;
-  auto table = vtkSmartPointer<vtkLookupTable>::New();
+  const auto table = vtkSmartPointer<vtkLookupTable>::New();
   table->SetNumberOfTableValues(n);
   for (int i = 0; i < n; ++i) {
     const double at = double(i) / (n - 1) * (light_to_dark.size() - 1);
@@ -41,7 +41,7 @@ vtkSmartPointer<vtkLookupTable> colours_over(const std::array<double, 2>& range)
     table->SetTableValue(i, rgb[0], rgb[1], rgb[2]);
   }
   table->SetTableRange(range[0], range[1]);
-  return table;
+  return {table.Get(), [table](vtkLookupTable*) {}};  // the deleter holds VTK's own reference
 }
 
 void add_colour_bar(vtkRenderer* renderer, vtkLookupTable* colours, const ColourBar& bar) {

@@ -1,9 +1,8 @@
 /// The colours of a field, and the bar that tells what they stand for.
 #pragma once
 
-#include <vtkSmartPointer.h>
-
 #include <array>
+#include <memory>
 #include <string>
 
 #include "pipelines/write/drawing/picture_surface.h"
@@ -15,7 +14,7 @@ namespace pipelines {
 
 /// From light to dark, so that they read without hue, and shape shows where the field is small: those of
 /// report.html.
-vtkSmartPointer<vtkLookupTable> colours_over(const std::array<double, 2>& range);
+std::shared_ptr<vtkLookupTable> colours_over(const std::array<double, 2>& range);
 
 struct ColourBar {
   double left = 0, bottom = 0, width = 0, height = 0;  ///< pixels of the renderer

@@ -361,8 +361,8 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
 
   const auto parts = parts_of(drawn.surface.get());
   constexpr double stripes_across_whole = 80, stripes_across_detail = 50;
-  add_drawn(whole, drawn, parts, table, 2 * extent / stripes_across_whole, false);
-  add_drawn(detail, drawn, parts, table, 2 * half_detail / stripes_across_detail, options.edges);
+  add_drawn(whole, drawn, parts, table.get(), 2 * extent / stripes_across_whole, false);
+  add_drawn(detail, drawn, parts, table.get(), 2 * half_detail / stripes_across_detail, options.edges);
   for (auto* renderer : {whole, detail}) {
     if (distance(shown, peak.at) > single_precision) add_ring(renderer, peak.at, 0.7 * font_size, ink);
     add_ring(renderer, shown, font_size, governing_blue);
@@ -393,7 +393,7 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   bar.unit = unit;
   bar.peak = peak.value;
   bar.font_size = font_size;
-  add_legend(Legend(legend, legend_width, legend_height, font_size), legend, table, bar, peak, options,
+  add_legend(Legend(legend, legend_width, legend_height, font_size), legend, table.get(), bar, peak, options,
              some_excluded);
   write_png(window.get(), png);
   return true;

@@ -431,7 +431,7 @@ TEST(Sweeps, TakeSettingsOfOperatingBlocks) {
   EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
 }
 
-// The scene says what is drawn and printed, the chart says it in words; --figure goes first.
+// The scene says what is drawn and printed; --figure goes first.
 TEST(Sweeps, DrawWhatTheSceneNames) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse()) +
@@ -440,10 +440,7 @@ TEST(Sweeps, DrawWhatTheSceneNames) {
   const auto as_named = as_a_user(directory.path, "sweep mill.toml --loads -q -o swept");
   ASSERT_EQ(as_named.exit_code, 0) << as_named.err;
   EXPECT_NE(as_named.out.find("loads.R_E.mean"), std::string::npos) << as_named.out;
-  const auto drawn = results_test::bytes(directory / "swept/chart.svg");
-  for (const char* name : {"R_E, largest", "R_E, mean", "charge mass"})
-    EXPECT_NE(drawn.find(name), std::string::npos) << name;
-  EXPECT_EQ(drawn.find("loads."), std::string::npos) << "raw keys";
+  EXPECT_TRUE(fs::exists(directory / "swept/chart.png"));
   const auto asked = as_a_user(directory.path, "sweep mill.toml --loads -q -o swept --figure loads.T.rms");
   ASSERT_EQ(asked.exit_code, 0) << asked.err;
   EXPECT_NE(asked.out.find("loads.T.rms"), std::string::npos);
