@@ -91,7 +91,7 @@ TEST(Charts, NameCurvesAtTheirEnds) {
   LineChart chart;
   chart.curves.push_back({"low", {0, 1, 2}, {1, 1, 1}, {}, true});
   chart.curves.push_back({"high", {0, 1, 2}, {3, 3, 3}, {}, true});
-  chart.curves.push_back({"as high", {0, 1, 2}, {3, 3, 2.99}, {}, true});
+  chart.curves.push_back({"as high", {0, 1, 2}, {2, 2.5, 2.99}, {}, true});
   ASSERT_TRUE(write_chart(chart, directory / "chart"));
   const PictureOfChart picture(directory / "chart.png");
   const auto height_of_name = [&](const Rgb& colour) {
