@@ -10,6 +10,7 @@
 #include "pipelines/base/common/process_limits.h"
 #include "pipelines/base/fields/shown_unit.h"
 #include "pipelines/command/study/sweep_table.h"
+#include "pipelines/study/variations/figure_words.h"
 #include "pipelines/write/drawing/chart.h"
 
 namespace pipelines {
@@ -22,8 +23,10 @@ LineChart line_chart(const std::string& title, const SweepPlan& plan, const std:
   LineChart chart;
   chart.title = title;
   const auto& variation = plan.variations[k];
-  chart.x = {with_unit(variation.key, variation.unit), variation.range && variation.range->is_logarithmic};
-  chart.y.title = shown_unit(unit_of(rows, figures.front())).unit;
+  chart.x = {with_unit(key_in_words(variation.key), variation.unit),
+             variation.range && variation.range->is_logarithmic};
+  const auto unit = shown_unit(unit_of(rows, figures.front())).unit;
+  chart.y.title = figures.size() == 1 ? with_unit(figure_in_words(figures.front()), unit) : unit;
   constexpr std::size_t most_curves = 6;
   for (const auto& figure : figures) {
     const double one = shown_unit(unit_of(rows, figure)).one;
@@ -38,7 +41,7 @@ LineChart line_chart(const std::string& title, const SweepPlan& plan, const std:
       auto curve = curves.find(others);
       if (curve == curves.end()) {
         if (chart.curves.size() >= most_curves) continue;
-        std::string name = figure;
+        std::string name = figure_in_words(figure);
         for (const auto& value : others) name += ", " + value;
         curve = curves.emplace(others, chart.curves.size()).first;
         chart.curves.push_back({name, {}, {}, {}, design != SweepDesign::latin_hypercube});
@@ -50,6 +53,7 @@ LineChart line_chart(const std::string& title, const SweepPlan& plan, const std:
         drawn.error.push_back(error);
     }
   }
+  if (chart.curves.size() == 1) chart.curves.front().name.clear();  // the axis says it
   return chart;
 }
 
@@ -59,10 +63,10 @@ HeatMap heat_map(const std::string& title, const SweepPlan& plan, const std::vec
   const auto& along = plan.variations[1];
   const auto& up = plan.variations[0];
   const auto shown = shown_unit(unit_of(rows, figure));
-  map.title = title + ": " + with_unit(figure, shown.unit);
-  map.x_title = with_unit(along.key, along.unit);
-  map.y_title = with_unit(up.key, up.unit);
-  map.figure_title = with_unit(figure, shown.unit);
+  map.figure_title = with_unit(figure_in_words(figure), shown.unit);
+  map.title = title + ": " + map.figure_title;
+  map.x_title = with_unit(key_in_words(along.key), along.unit);
+  map.y_title = with_unit(key_in_words(up.key), up.unit);
   const auto labels = [](const Variation& variation) {
     std::vector<std::string> texts;
     for (const double number : variation.numbers) texts.push_back(fmt::format("{:.4g}", number));

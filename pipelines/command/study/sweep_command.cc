@@ -42,6 +42,7 @@ void refuse_without_use(bool is_given, const char* option, const char* why) {
 
 SweepRequest requested(const SweepCommandOptions& options, SweepRequest request) {
   if (!options.vary.empty()) request.vary = options.vary;
+  if (!options.figures.empty()) request.figures = options.figures;
   if (!options.design.empty()) request.design = sweep_design(options.design);
   if (options.n_points > 0) request.n_points = options.n_points;
   if (options.seed >= 0) request.seed = std::uint64_t(options.seed);
@@ -412,7 +413,7 @@ void carry_out(const SweepCommandOptions& options, std::ostream& out) {
   });
   std::vector<std::string> figures;
   try {
-    figures = shown_figures(options.figures, rows);
+    figures = shown_figures(request.figures, rows);
   } catch (const OptionError&) {  // whose remedy is sweep.csv
     staged.publish();
     throw;
@@ -454,9 +455,9 @@ void add_sweep_command(CLI::App& app, ChosenCommand& chosen) {
   command->add_flag("--loads", options->loads_only, "the load stage alone, microseconds a point");
   command->add_flag("--zones", options->zones,
                     "the stress zones of every point, followed from point to point");
-  add_repeated_option(
-      *command, "--figure", options->figures,
-      "to print and draw, a column of sweep.csv; may be repeated (default: governing stresses)");
+  add_repeated_option(*command, "--figure", options->figures,
+                      "to print and draw, a column of sweep.csv; may be repeated (default: the scene's, or "
+                      "governing stresses)");
   command->add_option("-o,--output", options->output, "result directory (default: results/<scene>_sweep)");
   add_force_option(*command, *options);
   command->add_flag("--fresh", options->fresh, "reuse nothing of an earlier sweep");

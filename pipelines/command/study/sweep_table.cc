@@ -85,7 +85,7 @@ std::vector<std::string> shown_figures(const std::vector<std::string>& named,
   }
   for (const auto& name : named)
     if (known.count(name) == 0)
-      throw OptionError("--figure " + name + ": the sweep has no such figure" + near_figure(name, known) +
+      throw OptionError("figure \"" + name + "\": the sweep has no such figure" + near_figure(name, known) +
                         "; sweep.csv has their names");
   if (!named.empty()) return named;
   if (!governing.empty()) return governing;

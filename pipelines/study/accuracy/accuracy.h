@@ -31,7 +31,7 @@ struct AccuracyRow {
   double gigabytes = 0;              ///< largest resident memory during the run
   double true_error_Pa = 0;          ///< |value - reference|
   bool is_reference = false;
-  bool on_frontier = false;      ///< no cheaper run is closer to the reference
+  bool on_frontier = false;      ///< no cheaper run is closer to the reference, as far as that is known
   bool is_contradicted = false;  ///< further from the reference than both state: one of the two is wrong
 };
 

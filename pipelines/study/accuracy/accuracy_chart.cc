@@ -72,10 +72,12 @@ public:
     std::vector<double> seconds, errors{100 * study.tolerance};
     for (const auto& row : study.rows) {
       if (row.seconds > 0) seconds.push_back(row.seconds);
-      for (const double error : {percent(row.errors.total_Pa()), percent(row.true_error_Pa)})
-        if (error > smallest_percent) errors.push_back(error);
+      for (const double error_Pa : {row.errors.total_Pa(), row.true_error_Pa})
+        if (percent(error_Pa) > smallest_percent && error_Pa >= study.reference_error_Pa)
+          errors.push_back(percent(error_Pa));
       if (std::find(rungs_.begin(), rungs_.end(), row.model) == rungs_.end()) rungs_.push_back(row.model);
     }
+    if (study.reference_error_Pa > 0) errors.push_back(percent(study.reference_error_Pa) / 2.5);
     if (seconds.empty()) throw std::invalid_argument("no run with a time: nothing to draw");
     x_ = axis_over(seconds, left, right);
     y_ = axis_over(errors, bottom, top);
@@ -87,6 +89,7 @@ public:
                       study_.reference_Pa / 1e6, study_.reference),
           small_font, left, height - 95);
     draw_axes();
+    draw_what_is_not_told();
     draw_tolerance();
     draw_frontier();
     for (std::size_t i = 0; i < rungs_.size(); ++i) draw_model(rungs_[i], colours[i % colours.size()]);
@@ -133,6 +136,30 @@ private:
     words("error of the stress", chart_font, left - 100, top + 20);
   }
 
+  /// Height below which errors are less than what the reference knows of itself; the axis: it knows all.
+  double told_from_y() const {
+    return study_.reference_error_Pa > 0 ? y_of(study_.reference_error_Pa) : bottom;
+  }
+
+  void draw_what_is_not_told() {
+    const double height_told = told_from_y() - bottom;
+    if (height_told <= 0) return;
+    Drawing hatching, border;
+    constexpr double apart = 14;
+    for (double x = left - height_told; x < right; x += apart) {
+      const double from = std::max(left, x), to = std::min(right, x + height_told);
+      hatching.line(from, bottom + (from - x), to, bottom + (to - x));
+    }
+    hatching.put(renderer_, frontier_grey, 1);
+    border.line(left, told_from_y(), right, told_from_y());
+    border.put(renderer_, ink, 1);
+    auto* text = words(fmt::format("not told: less than the reference's own error of {:.2g} %",
+                                   percent(study_.reference_error_Pa)),
+                       small_font, left + 10, bottom + 6);
+    text->GetTextProperty()->SetBackgroundColor(1, 1, 1);
+    text->GetTextProperty()->SetBackgroundOpacity(1);
+  }
+
   void draw_tolerance() {
     Drawing line;
     const double y = y_.at(100 * study_.tolerance);
@@ -175,8 +202,9 @@ private:
     for (const auto& row : study_.rows) {
       if (!row.on_frontier) continue;
       if (before) {
+        const double y = std::max(shown_y(row), told_from_y());
         line.line(x_.at(before->seconds), shown_y(*before), x_.at(row.seconds), shown_y(*before));
-        line.line(x_.at(row.seconds), shown_y(*before), x_.at(row.seconds), shown_y(row));
+        line.line(x_.at(row.seconds), shown_y(*before), x_.at(row.seconds), y);
       }
       before = &row;
     }

@@ -8,6 +8,8 @@
 
 namespace pipelines {
 
+/// What lies below the reference's own error is hatched: it is not told, and the frontier ends there.
+///
 /// One curve per model: discs at the true errors, a bar from each up or down to its estimate; the efficient
 /// frontier as a broad grey line, a ring around the chosen run, the tolerance as a horizontal line. The
 /// reference, whose true error is not known, is a square at its own estimate.

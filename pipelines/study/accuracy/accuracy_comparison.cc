@@ -10,12 +10,14 @@
 namespace pipelines {
 namespace {
 
-void mark_frontier(std::vector<AccuracyRow>& rows) {
+/// Distances below the reference's own error are not told from each other.
+void mark_frontier(std::vector<AccuracyRow>& rows, double told_from_Pa) {
   double least = std::numeric_limits<double>::infinity();
   for (auto& row : rows)
-    if (!row.is_reference && row.true_error_Pa < least) {
+    if (const double told_Pa = std::max(row.true_error_Pa, told_from_Pa);
+        !row.is_reference && told_Pa < least) {
       row.on_frontier = true;
-      least = row.true_error_Pa;
+      least = told_Pa;
     }
 }
 
@@ -69,7 +71,7 @@ void compare_runs(AccuracyStudy& study, double known_Pa) {
   }
   std::stable_sort(rows.begin(), rows.end(),
                    [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
-  mark_frontier(rows);
+  mark_frontier(rows, study.reference_error_Pa);
   choose(study);
 }
 

@@ -21,9 +21,10 @@ std::string to_string(SweepDesign design);
 struct SweepRequest {
   std::vector<std::string> vary;  ///< "KEY = VALUES" each (variation.h)
   SweepDesign design = SweepDesign::grid;
-  int n_points = 0;        ///< points of a Latin hypercube
-  std::uint64_t seed = 1;  ///< seed of a Latin hypercube: another seed draws other points
-  bool zones = false;      ///< the stress zones of every point, too
+  int n_points = 0;                  ///< points of a Latin hypercube
+  std::uint64_t seed = 1;            ///< seed of a Latin hypercube: another seed draws other points
+  bool zones = false;                ///< the stress zones of every point, too
+  std::vector<std::string> figures;  ///< to print and draw, columns of sweep.csv; none: chosen
 };
 
 struct SweepPoint {

@@ -1,5 +1,7 @@
 #include "pipelines/study/variations/sweep_request.h"
 
+#include <utility>
+
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/names/nearest_name.h"
 #include "pipelines/scene/whole/scene_table.h"
@@ -38,9 +40,11 @@ SweepRequest read_sweep_request(const std::filesystem::path& file, const TomlNod
   SceneTable root(tree, "", findings);
   SceneTable table = root.table_or_empty("sweep");
   SweepRequest request;
-  table.know("vary");
-  if (table.has("vary"))
-    for (const auto& text : table.texts("vary")) request.vary.push_back(text.text);
+  for (const auto& [key, texts] : {std::pair{"vary", &request.vary}, {"figures", &request.figures}}) {
+    table.know(key);
+    if (table.has(key))
+      for (const auto& text : table.texts(key)) texts->push_back(text.text);
+  }
   const auto design = table.text_or("design", "grid", "every value with every other");
   at_key(table, "design", [&] { request.design = sweep_design(design); });
   request.n_points = table.count_or("points", 2, 1'000'000, 0, "a grid has as many as its values make");

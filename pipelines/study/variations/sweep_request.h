@@ -8,7 +8,8 @@
 
 namespace pipelines {
 
-/// [sweep] of a scene: vary, design, points, seed, zones; an empty request where the scene has no such table.
+/// [sweep] of a scene: vary, design, points, seed, zones, figures; an empty request where the scene has no
+/// such table.
 /// @param tree  tree of the scene (scene_tree.h)
 /// @throws SceneError with every error found in the table
 SweepRequest read_sweep_request(const std::filesystem::path& file, const TomlNode& tree);

@@ -6,11 +6,14 @@
 #include <vtkChartXY.h>
 #include <vtkColorLegend.h>
 #include <vtkColorTransferFunction.h>
+#include <vtkContext2D.h>
 #include <vtkContextActor.h>
+#include <vtkContextItem.h>
 #include <vtkContextScene.h>
 #include <vtkDoubleArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
 #include <vtkPen.h>
 #include <vtkPlot.h>
 #include <vtkPlotArea.h>
@@ -78,16 +81,100 @@ void write_svg(vtkRenderWindow* window, const std::filesystem::path& svg) {
   file.commit("</svg>\n");  // the library does not tell that the disk was full
 }
 
+/// Names of curves beside their right ends, each in its colour, moved apart.
+class CurveLabels : public vtkContextItem {
+public:
+  static CurveLabels* New();
+  vtkTypeMacro(CurveLabels, vtkContextItem);
+
+  struct Label {
+    std::string text;
+    std::array<unsigned char, 3> colour{};
+    double x = 0, end_y = 0, y = 0;  ///< end of the curve, and where the words go [pixels]
+  };
+
+  /// @param left       left end of the words
+  /// @param low, high  what is free for them
+  void place(std::vector<Label> labels, double left, double low, double high) {
+    labels_ = std::move(labels);
+    left_ = left;
+    std::sort(labels_.begin(), labels_.end(), [](const auto& a, const auto& b) { return a.end_y < b.end_y; });
+    const double apart = 1.25 * label_size;
+    for (std::size_t i = 0; i < labels_.size(); ++i)
+      labels_[i].y = std::max(labels_[i].end_y, i > 0 ? labels_[i - 1].y + apart : low);
+    double most = high;
+    for (auto label = labels_.rbegin(); label != labels_.rend(); ++label, most -= apart)
+      label->y = std::min(label->y, most);
+  }
+
+  bool Paint(vtkContext2D* painter) override {
+    vtkNew<vtkTextProperty> words;
+    plain(words, label_size - 2);
+    words->SetVerticalJustificationToCentered();
+    for (const auto& [text, colour, x, end_y, y] : labels_) {
+      painter->GetPen()->SetColor(colour[0], colour[1], colour[2], 255);
+      painter->GetPen()->SetLineType(vtkPen::SOLID_LINE);
+      painter->GetPen()->SetWidth(1);
+      painter->DrawLine(float(x + 4), float(end_y), float(left_ - 4), float(y));
+      words->SetColor(colour[0] / 255., colour[1] / 255., colour[2] / 255.);
+      painter->ApplyTextProp(words);
+      painter->DrawString(float(left_), float(y), text);
+    }
+    return true;
+  }
+
+protected:
+  CurveLabels() = default;
+
+private:
+  std::vector<Label> labels_;
+  double left_ = 0;
+};
+vtkStandardNewMacro(CurveLabels);
+
+/// Room that the names of curves need beside them; 0: a legend says them.
+int width_of_labels(const LineChart& chart) {
+  constexpr std::size_t most_labels = 12, most_letters = 44;
+  std::size_t longest = 0;
+  for (const auto& curve : chart.curves) {
+    const bool is_line = curve.is_joined && curve.x.size() > 1;
+    if (!is_line || curve.name.size() > most_letters) return 0;
+    longest = std::max(longest, curve.name.size());
+  }
+  const bool has_other_legend = chart.has_equal_scales || chart.window || chart.curves.size() > most_labels;
+  return has_other_legend ? 0 : 40 + int(longest) * (label_size - 2) * 6 / 10;
+}
+
+/// Where a chart's axis shows a value [pixels].
+double pixel_at(vtkAxis* axis, double value, int d) {
+  const double shown = axis->GetLogScaleActive() ? std::log10(value) : value;
+  const double share = (shown - axis->GetMinimum()) / (axis->GetMaximum() - axis->GetMinimum());
+  return axis->GetPoint1()[d] + share * (axis->GetPoint2()[d] - axis->GetPoint1()[d]);
+}
+
+void place_labels(vtkChartXY* chart, const std::vector<ChartCurve>& curves, CurveLabels* items) {
+  auto *const x = chart->GetAxis(vtkAxis::BOTTOM), *const y = chart->GetAxis(vtkAxis::LEFT);
+  std::vector<CurveLabels::Label> labels;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const auto& own = curves[i];
+    const auto last = std::size_t(std::max_element(own.x.begin(), own.x.end()) - own.x.begin());
+    labels.push_back({own.name, curve_colours[i % curve_colours.size()], pixel_at(x, own.x[last], 0),
+                      pixel_at(y, own.y[last], 1), 0});
+  }
+  items->place(std::move(labels), x->GetPoint2()[0] + 24, y->GetPoint1()[1], y->GetPoint2()[1]);
+}
+
 /// Draws one chart.
 /// @param fit  what is left to set once the chart is laid out
 bool draw(vtkChart* chart, const std::filesystem::path& file, int width = chart_width,
-          const std::function<void()>& fit = {}) {
+          const std::function<void()>& fit = {}, vtkContextItem* beside = nullptr) {
   const auto window = make_offscreen_window();
   if (!window) return false;
   window->SetSize(width, chart_height);
   window->SetMultiSamples(0);  // else letters have dashes below them
   vtkNew<vtkContextActor> actor;
   actor->GetScene()->AddItem(chart);
+  if (beside) actor->GetScene()->AddItem(beside);
   auto* const renderer = add_renderer(window.get(), 0, 0, 1, 1);
   renderer->AddActor(actor);
   actor->GetScene()->SetRenderer(renderer);
@@ -128,7 +215,7 @@ void add_curve(vtkChartXY* chart, const ChartCurve& curve, std::size_t i) {
     band->SetInputArray(1, "low");
     band->SetInputArray(2, "high");
     band->SetColor(colour[0], colour[1], colour[2], 50);
-    band->SetLabel(curve.name + ", stated error");
+    band->SetLegendVisibility(false);
   }
   if (curve.has_stems) {
     std::vector<double> x, y;
@@ -212,7 +299,11 @@ bool write_chart(const LineChart& chart, const std::filesystem::path& file) {
     style(xy->GetAxis(vtkAxis::BOTTOM), chart.x);
   else
     put_labels(xy->GetAxis(vtkAxis::BOTTOM), chart.x, chart.x.names, 1);
-  style(xy->GetAxis(vtkAxis::LEFT), chart.y);
+  auto up = chart.y;
+  if (std::any_of(chart.curves.begin(), chart.curves.end(),
+                  [](const auto& curve) { return !curve.error.empty(); }))
+    up.title += "; bands: stated error";
+  style(xy->GetAxis(vtkAxis::LEFT), up);
   xy->SetShowLegend(std::any_of(chart.curves.begin(), chart.curves.end(),
                                 [](const auto& curve) { return !curve.name.empty(); }));
   plain(xy->GetLegend()->GetLabelProperties(), label_size - 2);
@@ -227,6 +318,14 @@ bool write_chart(const LineChart& chart, const std::filesystem::path& file) {
     };
     up_to(xy->GetAxis(vtkAxis::BOTTOM), &ChartCurve::x);
     up_to(xy->GetAxis(vtkAxis::LEFT), &ChartCurve::y);
+  }
+  if (const int room = width_of_labels(chart); room > 0 && xy->GetShowLegend()) {
+    xy->SetShowLegend(false);
+    xy->SetAutoSize(false);
+    xy->SetSize(vtkRectf(0, 0, float(chart_width - room), float(chart_height)));
+    vtkNew<CurveLabels> labels;
+    return draw(
+        xy, file, chart_width, [&] { place_labels(xy, chart.curves, labels); }, labels);
   }
   if (!chart.has_equal_scales) return draw(xy, file);
   double most = 0;

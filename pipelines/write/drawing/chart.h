@@ -53,7 +53,8 @@ struct HeatMap {
   std::vector<double> figures;                  ///< x fastest; NaN: nothing is known there
 };
 
-/// Writes NAME.png and NAME.svg.
+/// Writes NAME.png and NAME.svg. Curves that are joined have their names at their right ends, others in a
+/// legend.
 /// @param file  without its extension
 /// @return false if the machine offers no EGL
 /// @throws FileError naming the file if it cannot be written

@@ -19,12 +19,6 @@
 namespace pipelines {
 namespace {
 
-/// 1, 2 or 5 times a power of ten.
-double round_length(double at_most) {
-  const double decade = std::pow(10, std::floor(std::log10(at_most)));
-  return decade * (at_most >= 5 * decade ? 5 : at_most >= 2 * decade ? 2 : 1);
-}
-
 vtkSmartPointer<vtkCellArray> cells_of(const std::vector<std::vector<Pixel>>& shapes, vtkPoints* points) {
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   for (const auto& shape : shapes) {
@@ -58,9 +52,14 @@ vtkTextActor* add_words(vtkRenderer* renderer, const std::string& words, int siz
   return text;
 }
 
+double round_below(double at_most) {
+  const double decade = std::pow(10, std::floor(std::log10(at_most)));
+  return decade * (at_most >= 5 * decade ? 5 : at_most >= 2 * decade ? 2 : 1);
+}
+
 double add_scale_bar(vtkRenderer* renderer, double x, double y, double at_most, double m_per_pixel,
                      int font_size) {
-  const double length_m = round_length(at_most * m_per_pixel), right = x + length_m / m_per_pixel;
+  const double length_m = round_below(at_most * m_per_pixel), right = x + length_m / m_per_pixel;
   Drawing bar;
   bar.line(x, y, right, y);
   bar.line(x, y - 6, x, y + 6);

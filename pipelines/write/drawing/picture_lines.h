@@ -31,6 +31,9 @@ private:
 /// @return belongs to the renderer
 vtkTextActor* add_words(vtkRenderer* renderer, const std::string& words, int size, double x, double y);
 
+/// The largest of 1, 2 or 5 times a power of ten that is no larger; of a positive number.
+double round_below(double at_most);
+
 /// A bar of a round length with its length in mm beside it; true in the plane of the picture.
 /// @param x, y       of its left end
 /// @param at_most    its length [pixels]

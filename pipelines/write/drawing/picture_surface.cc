@@ -216,19 +216,16 @@ Vector near_side(const double* bounds, const Vector& normal) {
 }
 
 std::vector<View> views_of(const double* bounds, const Vector& normal) {
-  const Vector near = near_side(bounds, normal);
-  Vector right, up;
-  if (is_long(bounds)) {
-    right = {0, 0, 1};
-    vtkMath::Cross(near.data(), right.data(), up.data());
-  } else {
-    up = {0, 1, 0};
-    vtkMath::Cross(up.data(), near.data(), right.data());
-  }
-  // First 30 degrees round towards the right, or the left if the place faces it, and 20 degrees from above,
-  // or from below if a place on a standing body faces down.
-  const double turn = std::copysign(30 * vtkMath::Pi() / 180, dot(normal, right) < -0.3 ? -1 : 1);
-  const double tilt = std::copysign(20 * vtkMath::Pi() / 180, !is_long(bounds) && normal[1] < -0.3 ? -1 : 1);
+  const Vector up{0, 1, 0};
+  Vector near = near_side(bounds, normal), right;
+  if (is_long(bounds)) near = {normal[0] > 0.1 ? 1.0 : -1.0, 0, 0};
+  vtkMath::Cross(up.data(), near.data(), right.data());
+  // First 30 degrees round towards the right, or the left if the place faces it, and from above, or from
+  // below if the place faces down: 20 degrees, or 55 where it is on the top or the bottom.
+  constexpr double degree = vtkMath::Pi() / 180;
+  const double turn = std::copysign(30 * degree, dot(normal, right) < -0.3 ? -1 : 1);
+  const double height = is_long(bounds) && std::abs(normal[1]) > 0.6 ? 55 : 20;
+  const double tilt = std::copysign(height * degree, normal[1] < -0.3 ? -1 : 1);
   std::vector<View> views;
   for (const double raise : {tilt, -tilt})
     for (const double side : {turn, -turn})

@@ -73,8 +73,8 @@ struct View {
 /// @param normal  outward, at the place
 Vector near_side(const double* bounds, const Vector& normal);
 
-/// Three quarters, from the near side; the best first. The axis of a long body runs to the right, other
-/// bodies stand with y up.
+/// Three quarters, from the near side, y up; the best first. The axis of a long body runs to the right, or to
+/// the left where it is seen from x > 0.
 std::vector<View> views_of(const double* bounds, const Vector& normal);
 
 /// A rectangle in the plane of the picture, at the depth of `centre`.

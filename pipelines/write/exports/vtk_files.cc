@@ -139,6 +139,7 @@ void write_grid(const std::filesystem::path& path, const Cells& cells, const fem
   grid->SetPoints(points);
   set_cells(*grid, cells);
   for (const auto& field : fields) add_field(*grid, field, nodes.n, chosen);
+  if (!fields.empty()) grid->GetPointData()->SetActiveScalars(escaped(fields.front().name).c_str());
   for (const auto& list : data.names) add_names(*grid, list);
   for (const auto& list : data.numbers) add_numbers(*grid, list);
   for (const auto& id : ids) {
@@ -238,8 +239,9 @@ std::string joining_text(const std::vector<NodalField>& fields, const std::vecto
   for (const auto& piece : pieces) sources += "    <Piece Source=\"" + escaped(piece) + "\"/>\n";
   return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <PUnstructuredGrid GhostLevel=\"0\">\n"
-         "    <PPointData>\n" +
-         at_nodes + "    </PPointData>\n    <PCellData>\n" + at_cells + "    </PCellData>\n    <PPoints>\n" +
+         "    <PPointData" +
+         (fields.empty() ? "" : " Scalars=\"" + escaped(fields.front().name) + "\"") + ">\n" + at_nodes +
+         "    </PPointData>\n    <PCellData>\n" + at_cells + "    </PCellData>\n    <PPoints>\n" +
          data_array("Float64", "Points", 3, {}) + "    </PPoints>\n" + sources +
          "  </PUnstructuredGrid>\n</VTKFile>\n";
 }
@@ -324,6 +326,20 @@ void write_surface_snapshot_vtu(const std::filesystem::path& path, const fem::No
                                 const std::vector<NodalField>& fields, const std::vector<IdField>& ids,
                                 VtuCompression compression, const std::vector<NameList>& names) {
   SurfaceSnapshots(nodes, ids, compression, names).write(path, fields);
+}
+
+void write_vtm(const std::filesystem::path& path, const std::vector<VtmBlock>& blocks) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\">\n  <vtkMultiBlockDataSet>\n";
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    text += "    <Block index=\"" + std::to_string(b) + "\" name=\"" + escaped(blocks[b].name) + "\">\n";
+    for (std::size_t i = 0; i < blocks[b].files.size(); ++i)
+      text += "      <DataSet index=\"" + std::to_string(i) + "\" file=\"" +
+              escaped(blocks[b].files[i].generic_string()) + "\"/>\n";
+    text += "    </Block>\n";
+  }
+  write_text_file(path, text + "  </vtkMultiBlockDataSet>\n</VTKFile>\n");
 }
 
 void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries) {

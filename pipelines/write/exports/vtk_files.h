@@ -63,6 +63,8 @@ enum class VtuCompression { none, zlib };
 void refuse_beyond_32_bits(const std::filesystem::path& path, std::size_t n_nodes, std::size_t n_cells,
                            std::size_t nodes_per_cell);
 
+/// The first field is the one that viewers show first.
+///
 /// The whole body: VTK_HEXAHEDRON, VTK_TRIQUADRATIC_HEXAHEDRON, VTK_LAGRANGE_HEXAHEDRON or
 /// VTK_QUADRATIC_TETRA, all nodes in their order. VTK takes the nodes of cubic cells as evenly spaced in the
 /// cell's own coordinates, where they are Gauss-Lobatto points: exact at the nodes, a little off between
@@ -126,6 +128,16 @@ struct PvdEntry {
   std::filesystem::path file;  ///< relative to the directory of the .pvd
   std::string name;            ///< name of the part, for ParaView's block names; may be empty
 };
+
+/// A body among several, of one file or of pieces.
+struct VtmBlock {
+  std::string name;
+  std::vector<std::filesystem::path> files;  ///< relative to the directory of the .vtm
+};
+
+/// Several bodies as one.
+/// @throws FileError naming the file if it cannot be written
+void write_vtm(const std::filesystem::path& path, const std::vector<VtmBlock>& blocks);
 
 /// A collection of snapshots over time.
 /// @throws FileError naming the file if it cannot be written

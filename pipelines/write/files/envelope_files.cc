@@ -10,18 +10,20 @@
 #include "pipelines/base/common/constants.h"
 #include "pipelines/base/common/parallel.h"
 #include "pipelines/base/common/several_ranks.h"
+#include "pipelines/base/files/atomic_file.h"
 #include "pipelines/judge/analysis/governing_stress.h"
 #include "pipelines/judge/life/body_fatigue.h"
 #include "pipelines/judge/texts/moment.h"
+#include "pipelines/write/exports/paraview_script.h"
 #include "pipelines/write/exports/vtk_files.h"
+#include "pipelines/write/pictures/port_surface.h"
 
 namespace pipelines {
 namespace {
 
 using std::filesystem::path;
 
-constexpr double not_converged = std::numeric_limits<double>::quiet_NaN();
-const std::vector<std::string> names_of_components{"xx", "yy", "zz", "xy", "yz", "xz"};
+constexpr double not_judged = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> flatten(const std::vector<Stress>& tensors) {
   std::vector<double> values;
@@ -30,38 +32,47 @@ std::vector<double> flatten(const std::vector<Stress>& tensors) {
   return values;
 }
 
-bool some_excluded(const NodePlaces& places) {
-  return std::any_of(places.excluded.begin(), places.excluded.end(), [](char c) { return c != 0; });
+/// Rounds to multiples of a power of two: the zeros that this leaves at the end of the numbers make files a
+/// quarter smaller.
+void round_to(double step, std::vector<double>& values) {
+  if (step > 0)
+    for (double& value : values) value = std::round(value / step) * step;
+}
+
+/// A step that no viewer shows: 2^-16 of the largest value, or less.
+double fine_step(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest > 0 ? std::exp2(std::ilogb(largest) - 16) : 0;
 }
 
 /// Fields with the values that they stand for.
 class Fields {
 public:
-  explicit Fields(const NodePlaces& places) : places_(places) {}
-
-  /// Adds a field, NaN at excluded nodes.
-  void add_result(const std::string& name, std::vector<double> values, int n_components = 1,
-                  const std::vector<std::string>& component_names = {}) {
-    const auto n = std::size_t(n_components);
-    for (std::size_t i = 0; i < places_.excluded.size(); ++i)
-      if (places_.excluded[i]) std::fill_n(values.begin() + std::ptrdiff_t(i * n), n, not_converged);
-    add(name, std::move(values), n_components, component_names);
-  }
-  /// The same, and the whole of it under a name that says what it is where nodes are excluded.
-  void add_result_and_whole(const std::string& name, const std::vector<double>& values, int n_components = 1,
-                            const std::vector<std::string>& component_names = {}) {
-    add_result(name, values, n_components, component_names);
-    if (some_excluded(places_)) add(unconverged(name), values, n_components, component_names);
-  }
   void add(const std::string& name, std::vector<double> values, int n_components = 1,
            const std::vector<std::string>& component_names = {}) {
     values_.push_back(std::move(values));
     fields_.push_back(nodal_field(name, values_.back(), n_components, component_names));
   }
+  /// Adds a stress in MPa and in Pa. What comes first in a file is what viewers show first.
+  /// @param name  ends in "[Pa]"
+  void add_stress(const std::string& name, std::vector<double> values_Pa) {
+    auto values_MPa = values_Pa;
+    for (double& value : values_MPa) value /= 1e6;
+    add(in_MPa(name), std::move(values_MPa));
+    add(name, std::move(values_Pa));
+  }
+  void add_tensor(const std::string& name, std::vector<double> values_Pa) {
+    round_to(fine_step(values_Pa), values_Pa);
+    add(name, std::move(values_Pa), 6, {"xx", "yy", "zz", "xy", "yz", "xz"});
+  }
+  void add_displacement(const std::string& name, std::vector<double> values_m) {
+    round_to(fine_step(values_m), values_m);
+    add(name, std::move(values_m), 3, {"x", "y", "z"});
+  }
   const std::vector<NodalField>& fields() const { return fields_; }
 
 private:
-  const NodePlaces& places_;
   std::deque<std::vector<double>> values_;  // stay where they are
   std::vector<NodalField> fields_;
 };
@@ -91,48 +102,53 @@ std::size_t nearest_node(const fem::Nodes& nodes, const std::array<double, 3>& p
 }
 
 std::vector<double> hot_spot_values(const Judged& analysis) {
-  std::vector<double> values(analysis.responses.nodes.n, not_converged);
+  std::vector<double> values(analysis.responses.nodes.n, not_judged);
   for (const auto& spot : analysis.hot_spots)  // a corner may be the toe of several: the largest comes first
     if (auto& value = values[nearest_node(analysis.responses.nodes, spot.toe_m)]; std::isnan(value))
       value = spot.von_mises_Pa;
   return values;
 }
 
-/// Adds utilisation on the surface; NaN inside, where fatigue is not judged.
+/// Adds utilisation on the surface; NaN inside and where nodes are left out: fatigue is not judged there.
 void add_fatigue(Fields& fields, const Judged& analysis) {
   const auto& fatigue = *analysis.fatigue;
   const std::size_t n = analysis.responses.nodes.n;
-  std::vector<double> amplitude(n, not_converged), mean(n, not_converged), utilisation(n, not_converged);
+  std::vector<double> amplitude(n, not_judged), mean(n, not_judged), utilisation(n, not_judged);
   for (std::size_t i = 0; i < fatigue.cycles.nodes.size(); ++i) {
     const auto node = fatigue.cycles.nodes[i];
     amplitude[node] = fatigue.cycles.cycles[i].amplitude_Pa;
     mean[node] = fatigue.cycles.cycles[i].signed_mean_Pa;
     utilisation[node] = fatigue.utilisation_at[i];
   }
-  fields.add_result("stress amplitude [Pa]", std::move(amplitude));
-  fields.add_result("mean stress [Pa]", std::move(mean));
-  fields.add_result("fatigue utilisation without support by gradient", std::move(utilisation));
+  fields.add_stress("stress amplitude [Pa]", std::move(amplitude));
+  fields.add_stress("mean stress [Pa]", std::move(mean));
+  fields.add("fatigue utilisation without support by gradient", std::move(utilisation));
 }
 
-FieldData governing_data(const Judged& analysis) {
+/// Ids of faces at their nodes; a node between several has the first one's.
+IdField at_nodes(const IdField& of_faces, const fem::Nodes& nodes) {
+  IdField field{of_faces.name, std::vector<std::int32_t>(nodes.n, 0)};
+  for (std::size_t f = 0; f < nodes.n_faces(); ++f)
+    for (const auto node : nodes.face(f))
+      if (auto& id = field.values[std::size_t(node)]; id == 0) id = of_faces.values[f];
+  return field;
+}
+
+FieldData data_of(const Judged& analysis, MarkedFaces marks) {
   const auto stress = governing_stress(analysis);
   FieldData data;
-  data.names = {{"governing stress, place", {stress.name() + " at " + stress.place}}};
+  data.names = std::move(marks.names);
+  data.names.push_back({"zone name", {}});
+  for (const auto& zone : analysis.zones.zones) data.names.back().names.push_back(zone.feature);
+  data.names.push_back({"governing stress, place", {stress.name() + " at " + stress.place}});
   data.numbers = {{"governing stress [Pa]", {stress.value_Pa}},
                   {"governing stress, position [m]", {stress.position_m.begin(), stress.position_m.end()}}};
   return data;
 }
 
-/// Shares to 1e-5: with all digits they would be a third of the file.
-std::vector<double> shown_shares(const std::vector<float>& shares) {
-  constexpr double step = 1.0 / 65536;
-  std::vector<double> shown;
-  for (const double share : shares) shown.push_back(std::round(share / step) * step);
-  return shown;
-}
-
+/// @param moved_m  displacement of every node, n x 3; empty: not known
 void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
-                    const Judged& analysis, int n_pieces) {
+                    const Judged& analysis, int n_pieces, std::vector<double> moved_m) {
   const auto& nodes = analysis.responses.nodes;
   const auto& envelope = analysis.envelope;
   const auto& effects = analysis.loads.history.effects;
@@ -148,27 +164,30 @@ void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHi
   std::vector<std::int32_t> turn;
   for (const auto instant : envelope.von_mises.instant) turn.push_back(moment_of(scene, loads, instant).turn);
 
-  Fields fields(analysis.places);
-  fields.add_result_and_whole(von_mises_field, envelope.von_mises.value_Pa);
-  fields.add_result("drive angle of maximum [deg]", angles(envelope.von_mises.instant));
-  fields.add_result_and_whole("stress at maximum [Pa]", flatten(envelope.von_mises.stress_Pa), 6,
-                              names_of_components);
-  fields.add_result("safety against yield", safety);
-  fields.add_result("largest principal stress, maximum [Pa]", envelope.principal.value_Pa);
-  fields.add_result("drive angle of largest principal stress [deg]", angles(envelope.principal.instant));
-  fields.add_result("stress at largest principal stress [Pa]", flatten(envelope.principal.stress_Pa), 6,
-                    names_of_components);
-  fields.add_result("effect share", shown_shares(envelope.effect_share), int(effects.size()), effects);
+  Fields fields;
+  fields.add_stress(von_mises_field, envelope.von_mises.value_Pa);
+  fields.add("drive angle of maximum [deg]", angles(envelope.von_mises.instant));
+  fields.add_tensor("stress at maximum [Pa]", flatten(envelope.von_mises.stress_Pa));
+  fields.add("safety against yield", safety);
+  fields.add_stress("largest principal stress, maximum [Pa]", envelope.principal.value_Pa);
+  fields.add("drive angle of largest principal stress [deg]", angles(envelope.principal.instant));
+  fields.add_tensor("stress at largest principal stress [Pa]", flatten(envelope.principal.stress_Pa));
+  std::vector<double> shares(envelope.effect_share.begin(), envelope.effect_share.end());
+  round_to(1.0 / 8192, shares);  // with all digits they would be a third of the file
+  fields.add("effect share", std::move(shares), int(effects.size()), effects);
+  if (!moved_m.empty()) fields.add_displacement("displacement at governing stress [m]", std::move(moved_m));
   if (auto beyond_m = beyond_left_out_m(nodes, analysis.places, analysis.mesh.sharp_edges); !beyond_m.empty())
     fields.add(beyond_field, std::move(beyond_m));
   if (analysis.fatigue) add_fatigue(fields, analysis);
-  if (!analysis.hot_spots.empty()) fields.add(hot_spot_field, hot_spot_values(analysis));
-  const std::vector<IdField> ids{{"zone", analysis.zones.zone_of_node},
-                                 {"turn of maximum", turn},
-                                 {"instant of maximum", envelope.von_mises.instant},
-                                 excluded_ids(analysis.places),
-                                 surface_ids(nodes)};
-  const auto data = governing_data(analysis);
+  if (!analysis.hot_spots.empty()) fields.add_stress(hot_spot_field, hot_spot_values(analysis));
+  auto marks = marked_faces(nodes, analysis.mesh);
+  std::vector<IdField> ids{{"zone", analysis.zones.zone_of_node},
+                           {"turn of maximum", turn},
+                           {"instant of maximum", envelope.von_mises.instant},
+                           excluded_ids(analysis.places),
+                           surface_ids(nodes)};
+  for (const auto& faces : marks.ids) ids.push_back(at_nodes(faces, nodes));
+  const auto data = data_of(analysis, std::move(marks));
   if (n_pieces > 1)
     write_envelope_pieces(file, nodes, fem::shares_of_cells(nodes, n_pieces), n_pieces, fields.fields(), ids,
                           VtuCompression::zlib, data);
@@ -176,47 +195,65 @@ void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHi
     write_envelope_vtu(file, nodes, fields.fields(), ids, VtuCompression::zlib, data);
 }
 
+/// Where the body is when its governing stress occurs. Called on all ranks that share it.
+std::vector<double> governing_displacement_m(const Judged& analysis) {
+  return displacement_at(analysis.responses, analysis.loads.history, governing_stress(analysis).instant);
+}
+
+/// Copies the components of a node to its place among those of all nodes.
+template <std::size_t n>
+void put(const std::array<double, n>& components, std::size_t node, std::vector<double>& all) {
+  std::copy(components.begin(), components.end(), all.begin() + std::ptrdiff_t(n * node));
+}
+
 /// Stress and displacement of the surface at one instant.
 void write_snapshot(const path& file, const SurfaceSnapshots& files, const Superposed& analysis,
                     Eigen::Index instant) {
   const auto& responses = analysis.responses;
   const auto& loads = analysis.loads.history;
-  std::vector<double> von_mises(responses.nodes.n), displacement(3 * responses.nodes.n);
+  const std::size_t n = responses.nodes.n;
+  std::vector<double> von_mises(n), stress(6 * n), displacement(3 * n);
   for (const auto number : files.nodes()) {
     const auto node = std::size_t(number);
     if (!responses.has(node)) continue;
-    von_mises[node] = von_mises_Pa(own_stress_at(responses, loads, node, instant));
-    const auto moved_m = own_displacement_at(responses, loads, node, instant);
-    std::copy(moved_m.begin(), moved_m.end(), displacement.begin() + std::ptrdiff_t(3 * node));
+    const auto tensor = own_stress_at(responses, loads, node, instant);
+    von_mises[node] = von_mises_Pa(tensor);
+    put(tensor, node, stress);
+    put(own_displacement_at(responses, loads, node, instant), node, displacement);
   }
-  responses.complete(von_mises);
-  responses.complete(displacement);
+  for (auto* values : {&von_mises, &stress, &displacement}) responses.complete(*values);
   if (!is_first_rank()) return;
-  Fields fields(analysis.places);
-  fields.add_result_and_whole("von Mises stress [Pa]", von_mises);
-  fields.add("displacement [m]", std::move(displacement), 3, {"x", "y", "z"});
+  Fields fields;
+  fields.add_stress("von Mises stress [Pa]", std::move(von_mises));
+  fields.add_tensor("stress [Pa]", std::move(stress));
+  fields.add_displacement("displacement [m]", std::move(displacement));
   files.write(file, fields.fields());
 }
 
 }  // namespace
 
-std::string unconverged(const std::string& field) {
-  return "not converged where excluded: " + field;
+std::string in_MPa(const std::string& field) {
+  const std::string unit = "[Pa]";
+  return field.substr(0, field.size() - unit.size()) + "[MPa]";
 }
 
-std::string pictured_field(const Superposed& analysis) {
-  return some_excluded(analysis.places) ? unconverged(von_mises_field) : von_mises_field;
+std::string pictured_field(const Superposed&) {
+  return von_mises_field;
 }
 
 void write_envelope_files(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
                           const Judged& analysis, int n_pieces) {
-  write_envelope(directory / (n_pieces > 1 ? "envelope.pvtu" : "envelope.vtu"), scene, loads, analysis,
-                 n_pieces);
+  auto moved_m = governing_displacement_m(analysis);
+  if (is_first_rank())
+    write_envelope(directory / (n_pieces > 1 ? "envelope.pvtu" : "envelope.vtu"), scene, loads, analysis,
+                   n_pieces, std::move(moved_m));
 }
 
 void write_whole_envelope(const path& file, const Scene& scene, const kinetics::LoadHistory& loads,
                           const Judged& analysis) {
-  write_envelope(file, scene, loads, analysis, 1);
+  const bool is_shared = analysis.responses.shared != nullptr;
+  write_envelope(file, scene, loads, analysis, 1,
+                 is_shared ? std::vector<double>() : governing_displacement_m(analysis));
 }
 
 void write_cycle_files(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
@@ -232,13 +269,28 @@ void write_cycle_files(const path& directory, const Scene& scene, const kinetics
     entries.push_back({loads.time_s[instants.back()], name, analysis.scene.name});
   }
   if (!entries.empty()) {
-    const SurfaceSnapshots files(analysis.responses.nodes, {excluded_ids(analysis.places)});
+    auto [names, ids] = marked_faces(analysis.responses.nodes, analysis.mesh);
+    ids.push_back(excluded_ids(analysis.places));
+    const SurfaceSnapshots files(analysis.responses.nodes, std::move(ids), VtuCompression::zlib,
+                                 std::move(names));
     const int at_once = threads_in_step(analysis.responses, n_threads);
     for_each_parallel(entries.size(), at_once, [&](std::size_t, std::size_t s) {
       write_snapshot(directory / entries[s].file, files, analysis, instants[s]);
     });
   }
   if (is_first_rank() && !entries.empty()) write_pvd(directory / "cycle.pvd", entries);
+}
+
+void write_bodies_together(const path& directory, const std::vector<std::string>& bodies, int n_pieces) {
+  std::vector<VtmBlock> blocks;
+  for (const auto& body : bodies) {
+    blocks.push_back({body, {}});
+    for (int piece = 0; piece < n_pieces; ++piece)
+      blocks.back().files.push_back(
+          path(body) / (n_pieces > 1 ? "envelope_" + std::to_string(piece) + ".vtu" : "envelope.vtu"));
+  }
+  write_vtm(directory / "bodies.vtm", blocks);
+  write_text_file(directory / "paraview_view.py", paraview_script());
 }
 
 }  // namespace pipelines

@@ -56,7 +56,8 @@ OutputNames run_names(std::vector<std::string> bodies) {
 bool is_run_result(const std::string& name) {
   const auto [folder, file] = folder_and_file(name);
   if (folder.empty())
-    return contains({"summary.json", living_data_name, "loads.h5", "loads.csv", "duty.csv", run_record_name},
+    return contains({"summary.json", living_data_name, "loads.h5", "loads.csv", "duty.csv", run_record_name,
+                     "bodies.vtm", "paraview_view.py"},
                     file);
   if (folder == torsion_folder && contains(torsion_files(), file)) return true;
   return folder.find('/') == std::string::npos && is_body_file(file);

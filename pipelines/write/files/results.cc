@@ -32,6 +32,12 @@ std::vector<ZonePart> zone_tree(const Zones& zones) {
   return rows;
 }
 
+std::vector<std::string> names_of_bodies(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const auto& body : scene.bodies) names.push_back(body.name);
+  return names;
+}
+
 }  // namespace
 
 void write_mesh(const path& file, const meshes::BodyMesh& mesh) {
@@ -42,12 +48,12 @@ void write_mesh(const path& file, const meshes::BodyMesh& mesh) {
 
 void write_body_results(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
                         const Judged& analysis, int n_pieces, int n_threads) {
-  if (is_first_rank()) {
-    if (analysis.method == Method::solid) write_mesh(directory / "mesh.msh", analysis.mesh);
-    write_envelope_files(directory, scene, loads, analysis, n_pieces);
-  }
+  if (is_first_rank() && analysis.method == Method::solid) write_mesh(directory / "mesh.msh", analysis.mesh);
+  write_envelope_files(directory, scene, loads, analysis, n_pieces);
   write_cycle_files(directory, scene, loads, analysis, n_threads);
   if (!is_first_rank()) return;
+  if (analysis.scene.name == scene.bodies.back().name)
+    write_bodies_together(directory.parent_path(), names_of_bodies(scene), n_pieces);
   const BodyResult body{scene, loads, analysis};
   write_rows(directory / "zones.csv", zone_fields(), body, analysis.zones.zones);
   write_rows(directory / "zone_tree.csv", zone_part_fields(), body, zone_tree(analysis.zones));

@@ -33,6 +33,12 @@ std::vector<const kinetics::Resultant*> largest_resultants(const kinetics::LoadH
   return all;
 }
 
+std::string name_of(const kinetics::Resultant& resultant) {
+  auto name = resultant.role;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 std::vector<double> vector_of(const Eigen::ArrayXd& values) {
   return {values.data(), values.data() + values.size()};
 }
@@ -55,15 +61,25 @@ private:
   std::filesystem::path directory_;
 };
 
+/// Of several turns the one with the largest force: all of them would be a comb.
+/// @param turns  0: a run-up, shown whole
 LineChart histories(const std::string& title, const kinetics::LoadHistory& loads,
-                    const std::vector<const kinetics::Resultant*>& resultants) {
-  LineChart chart{title + ": loads over the drive's angle",
-                  {"angle of the drive [deg]", false},
-                  {"force [N]", false},
-                  {}};
-  const auto angle_deg = vector_of(loads.phi_rad * (180 / pi));
+                    const std::vector<const kinetics::Resultant*>& resultants, int turns) {
+  Eigen::Index first = 0, n = loads.phi_rad.size();
+  std::string which = "loads over the drive's angle";
+  if (turns > 1) {
+    n /= turns;
+    Eigen::Index at = 0;
+    force_of(*resultants.front()).maxCoeff(&at);
+    first = at / n * n;
+    which = fmt::format("loads over turn {} of {}, which has the largest", first / n + 1, turns);
+  }
+  LineChart chart{title + ": " + which, {"angle of the drive [deg]", false}, {"force [N]", false}, {}};
+  const auto angle_deg = vector_of((loads.phi_rad.segment(first, n) - loads.phi_rad[first]) * (180 / pi));
   for (const auto* resultant : resultants)
-    chart.curves.push_back({resultant->role, angle_deg, vector_of(force_of(*resultant)), {}, true});
+    add_or_join(
+        chart.curves,
+        {name_of(*resultant), angle_deg, vector_of(force_of(*resultant).segment(first, n)), {}, true});
   return chart;
 }
 
@@ -72,7 +88,7 @@ LineChart polar(const std::string& title, const std::vector<const kinetics::Resu
       title + ": paths of the forces", {"force along x [N]", false}, {"force along y [N]", false}, {}};
   chart.has_equal_scales = true;
   for (const auto* resultant : resultants)
-    chart.curves.push_back({resultant->role,
+    chart.curves.push_back({name_of(*resultant),
                             vector_of(resultant->total.row(0).transpose()),
                             vector_of(resultant->total.row(1).transpose()),
                             {},
@@ -90,7 +106,7 @@ LineChart harmonics(const std::string& title, const std::vector<const kinetics::
                   {}};
   chart.is_from_zero = true;
   for (const auto* resultant : resultants) {
-    ChartCurve curve{resultant->role, {}, {}, {}, false};
+    ChartCurve curve{name_of(*resultant), {}, {}, {}, false};
     curve.has_stems = true;
     std::map<double, double> squares;
     for (const int c : {0, 1}) {
@@ -119,7 +135,7 @@ HeatMap rainflow(const std::string& title, const kinetics::Resultant& resultant,
       kinetics::spectrum(repeats ? kinetics::rainflow_repeating(force) : kinetics::rainflow(force));
   const double least = force.minCoeff(), most = force.maxCoeff(), width = std::max(most - least, 1e-300);
   HeatMap map;
-  map.title = title + ": rainflow cycles of " + resultant.role + ", by size of the force";
+  map.title = title + ": rainflow cycles of " + name_of(resultant) + ", by size of the force";
   map.x_title = "mean [N]";
   map.y_title = "range [N]";
   map.figure_title = "cycles";
@@ -146,7 +162,7 @@ std::vector<std::string> write_load_charts(const std::filesystem::path& director
   Charts charts(directory);
   const auto resultants = largest_resultants(loads);
   if (resultants.empty()) return {};
-  charts.write(histories(title, loads, resultants), "histories");
+  charts.write(histories(title, loads, resultants, turns), "histories");
   charts.write(polar(title, resultants), "polar");
   if (turns > 0) charts.write(harmonics(title, resultants, turns), "harmonics");
   charts.write(rainflow(title, *resultants.front(), turns > 0), "rainflow");

@@ -1,10 +1,10 @@
 #include "pipelines/write/pictures/picture.h"
 
+#include <fmt/core.h>
 #include <vtkActor.h>
 #include <vtkActor2D.h>
 #include <vtkCellArray.h>
 #include <vtkClipPolyData.h>
-#include <vtkColorTransferFunction.h>
 #include <vtkCoordinate.h>
 #include <vtkDataObject.h>
 #include <vtkFloatArray.h>
@@ -20,7 +20,6 @@
 #include <vtkRegularPolygonSource.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkScalarBarActor.h>
 #include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
@@ -28,10 +27,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <vector>
 
+#include "pipelines/base/common/constants.h"
+#include "pipelines/write/drawing/colour_scale.h"
 #include "pipelines/write/drawing/cut_surface.h"
 #include "pipelines/write/drawing/note_boxes.h"
 #include "pipelines/write/drawing/offscreen_window.h"
@@ -42,33 +42,8 @@
 namespace pipelines {
 namespace {
 
-/// Viridis, the colour map of matplotlib: even steps in lightness, legible in grey and to the colour-blind.
-vtkSmartPointer<vtkLookupTable> colours_of(const std::array<double, 2>& range) {
-  constexpr std::array<std::array<double, 3>, 11> viridis = {{{0.267004, 0.004874, 0.329415},
-                                                              {0.282623, 0.140926, 0.457517},
-                                                              {0.253935, 0.265254, 0.529983},
-                                                              {0.206756, 0.371758, 0.553117},
-                                                              {0.163625, 0.471133, 0.558148},
-                                                              {0.127568, 0.566949, 0.550556},
-                                                              {0.134692, 0.658636, 0.517649},
-                                                              {0.266941, 0.748751, 0.440573},
-                                                              {0.477504, 0.821444, 0.318195},
-                                                              {0.741388, 0.873449, 0.149561},
-                                                              {0.993248, 0.906157, 0.143936}}};
-  vtkNew<vtkColorTransferFunction> between;
-  between->SetColorSpaceToLab();
-  for (std::size_t i = 0; i < viridis.size(); ++i)
-    between->AddRGBPoint(static_cast<double>(i) / (viridis.size() - 1), viridis[i][0], viridis[i][1],
-                         viridis[i][2]);
-  auto table = vtkSmartPointer<vtkLookupTable>::New();
-  table->SetNumberOfTableValues(256);
-  for (int i = 0; i < 256; ++i) {
-    const double* rgb = between->GetColor(i / 255.);
-    table->SetTableValue(i, rgb[0], rgb[1], rgb[2]);
-  }
-  table->SetTableRange(range[0], range[1]);
-  return table;
-}
+constexpr Colour governing_blue{0, 90, 181};
+constexpr std::array<double, 2> hatching{0.85, 0.55};  // grey of its stripes
 
 vtkSmartPointer<vtkActor> actor_of(vtkPolyData* data, vtkLookupTable* table) {
   vtkNew<vtkPolyDataMapper> mapper;
@@ -77,8 +52,8 @@ vtkSmartPointer<vtkActor> actor_of(vtkPolyData* data, vtkLookupTable* table) {
   mapper->UseLookupTableScalarRangeOn();
   mapper->InterpolateScalarsBeforeMappingOn();
   auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->GetProperty()->SetAmbient(0.35);
-  actor->GetProperty()->SetDiffuse(0.7);
+  actor->GetProperty()->SetAmbient(0.5);
+  actor->GetProperty()->SetDiffuse(0.55);
   actor->GetProperty()->SetSpecular(0.08);
   actor->GetProperty()->SetSpecularPower(30);
   actor->SetMapper(mapper);
@@ -111,7 +86,7 @@ vtkSmartPointer<vtkActor> hatched_actor(vtkPolyData* data, double width) {
   vtkNew<vtkLookupTable> stripes;
   stripes->SetNumberOfTableValues(2 * n);
   for (int i = 0; i < 2 * n; ++i) {
-    const double grey = i % 2 == 0 ? 0.85 : 0.55;
+    const double grey = hatching[std::size_t(i % 2)];
     stripes->SetTableValue(i, grey, grey, grey);
   }
   stripes->SetTableRange(least, least + n);
@@ -121,41 +96,25 @@ vtkSmartPointer<vtkActor> hatched_actor(vtkPolyData* data, double width) {
   return actor_of(striped, stripes);
 }
 
-/// A ring around a place of the body that keeps its size in pixels.
-vtkSmartPointer<vtkActor2D> ring_at(const Vector& at, double radius) {
-  vtkNew<vtkRegularPolygonSource> circle;
-  circle->SetNumberOfSides(48);
-  circle->SetRadius(radius);
-  circle->GeneratePolygonOff();
-  vtkNew<vtkPolyDataMapper2D> mapper;
-  mapper->SetInputConnection(circle->GetOutputPort());
-  auto ring = vtkSmartPointer<vtkActor2D>::New();
-  ring->SetMapper(mapper);
-  ring->GetPositionCoordinate()->SetCoordinateSystemToWorld();
-  ring->GetPositionCoordinate()->SetValue(at[0], at[1], at[2]);
-  ring->GetProperty()->SetColor(0.85, 0.1, 0.1);
-  ring->GetProperty()->SetLineWidth(3);
-  return ring;
-}
-
-vtkSmartPointer<vtkScalarBarActor> colour_bar(vtkLookupTable* table, const std::string& unit, int font_size,
-                                              double height) {
-  auto bar = vtkSmartPointer<vtkScalarBarActor>::New();
-  bar->SetLookupTable(table);
-  bar->SetTitle(unit.c_str());
-  bar->SetNumberOfLabels(6);
-  bar->SetLabelFormat("%.4g");
-  bar->UnconstrainedFontSizeOn();
-  plain(bar->GetTitleTextProperty(), font_size);
-  plain(bar->GetLabelTextProperty(), font_size);
-  bar->SetVerticalTitleSeparation(font_size / 2);
-  bar->SetTextPad(font_size / 3);
-  bar->SetBarRatio(0.35);
-  bar->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  bar->GetPositionCoordinate()->SetValue(0.12, 0.06);
-  bar->SetWidth(0.3);
-  bar->SetHeight(height);
-  return bar;
+/// Adds a ring around a place of the body that keeps its size in pixels, between two white ones.
+void add_ring(vtkRenderer* renderer, const Vector& at, double radius, const Colour& colour) {
+  constexpr double apart = 3;  // of one on another only one would show
+  for (const double beside : {-apart, 0.0, apart}) {
+    const Colour own = beside == 0 ? colour : Colour{255, 255, 255};
+    vtkNew<vtkRegularPolygonSource> circle;
+    circle->SetNumberOfSides(48);
+    circle->SetRadius(radius + beside);
+    circle->GeneratePolygonOff();
+    vtkNew<vtkPolyDataMapper2D> mapper;
+    mapper->SetInputConnection(circle->GetOutputPort());
+    vtkNew<vtkActor2D> ring;
+    ring->SetMapper(mapper);
+    ring->GetPositionCoordinate()->SetCoordinateSystemToWorld();
+    ring->GetPositionCoordinate()->SetValue(at[0], at[1], at[2]);
+    ring->GetProperty()->SetColor(own[0] / 255., own[1] / 255., own[2] / 255.);
+    ring->GetProperty()->SetLineWidth(beside == 0 ? 3.5F : 2.F);
+    renderer->AddActor2D(ring);
+  }
 }
 
 /// Some of the triangles of a surface, over its points.
@@ -232,7 +191,6 @@ double width_over_height(const Layout::Place& place, const PictureOptions& optio
   return (place[2] - place[0]) * options.width / ((place[3] - place[1]) * options.height);
 }
 
-constexpr double line_height = 0.06;       // height of text in the legend
 constexpr double single_precision = 1e-6;  // m: what VTK's filters leave of places on bodies of a few metres
 
 double distance(const Vector& a, const Vector& b) {
@@ -242,7 +200,7 @@ double distance(const Vector& a, const Vector& b) {
 /// How often faces are cut into four to look round: where they are many, each is small in the picture, and
 /// drawing without a graphics card takes its time for each triangle.
 int pieces_of(vtkIdType n_faces, int wanted) {
-  constexpr double most_triangles = 6e5;
+  constexpr double most_triangles = 1.2e5;
   int pieces = std::clamp(wanted, 0, 5);
   while (pieces > 1 && 2 * double(n_faces) * std::pow(4, pieces) > most_triangles) --pieces;
   return pieces;
@@ -289,24 +247,72 @@ void add_notes(vtkRenderer* renderer, const std::vector<PictureMark>& notes, dou
   leaders.put(renderer, ink, 1.5);
 }
 
-/// What is ringed, and what is hatched; above the colours.
-/// @return the number of lines
-int add_legend_text(vtkRenderer* legend, const SurfacePeak& peak, const std::string& unit,
-                    const PictureOptions& options, bool some_excluded, int font_size) {
-  const Vector at = options.mark ? options.mark->at_m : peak.at;
-  char text[200];
-  std::snprintf(text, sizeof(text), "maximum %.4g %s", peak.value, unit.c_str());
-  const std::string maximum = text;
-  std::snprintf(text, sizeof(text), "\nat x = %.1f, y = %.1f, z = %.1f mm", 1e3 * at[0], 1e3 * at[1],
-                1e3 * at[2]);
-  std::string words = (options.mark ? options.mark->text : maximum) + text;
-  if (options.mark && distance(at, peak.at) > single_precision) words += "\nin colour: " + maximum;
-  if (!options.notes.empty()) words += "\nboxes: " + options.notes_are;
+/// Lines of the legend from above, each entry with its sign before it.
+class Legend {
+public:
+  Legend(vtkRenderer* renderer, double width, double height, int font_size)
+      : renderer_(renderer), x_(0.12 * width), y_(0.95 * height), font_size_(font_size) {}
+
+  void add(const std::string& words) {
+    auto* text = add_words(renderer_, words, font_size_, x_, y_);
+    text->GetTextProperty()->SetVerticalJustificationToTop();
+    y_ -= (1.35 + 1.4 * double(std::count(words.begin(), words.end(), '\n'))) * font_size_;
+  }
+  void add_ringed(const std::string& words, const Colour& colour) {
+    Drawing ring;
+    const double radius = 0.4 * font_size_;
+    const auto at = [&](int i) {
+      return Pixel{sign_x() + radius * std::cos(i * pi / 12), sign_y() + radius * std::sin(i * pi / 12)};
+    };
+    for (int i = 0; i < 24; ++i) ring.line(at(i)[0], at(i)[1], at(i + 1)[0], at(i + 1)[1]);
+    ring.put(renderer_, colour, 3.5);
+    add(words);
+  }
+  void add_hatched(const std::string& words) {
+    const double half = 0.45 * font_size_;
+    for (int i = 0; i < 4; ++i) {
+      Drawing stripe;
+      const double left = sign_x() - half + i * half / 2, right = left + half / 2;
+      stripe.area({{left, sign_y() - half},
+                   {right, sign_y() - half},
+                   {right, sign_y() + half},
+                   {left, sign_y() + half}});
+      const auto grey = static_cast<unsigned char>(255 * hatching[std::size_t(i % 2)]);
+      stripe.put(renderer_, {grey, grey, grey}, 1);
+    }
+    add(words);
+  }
+  /// Where the next line would begin.
+  double y() const { return y_; }
+  double x() const { return x_; }
+
+private:
+  double sign_x() const { return x_ - font_size_; }
+  double sign_y() const { return y_ - 0.5 * font_size_; }
+
+  vtkRenderer* renderer_;
+  double x_, y_;
+  int font_size_;
+};
+
+/// What is ringed, and what is hatched; below it the colours.
+void add_legend(Legend legend, vtkRenderer* renderer, vtkLookupTable* colours, ColourBar bar,
+                const SurfacePeak& peak, const PictureOptions& options, bool some_excluded) {
+  const auto place = [](const Vector& at) {
+    return fmt::format("at x = {:.1f}, y = {:.1f}, z = {:.1f} mm", 1e3 * at[0], 1e3 * at[1], 1e3 * at[2]);
+  };
+  const auto largest = fmt::format("{:.4g} {}", peak.value, bar.unit);
+  if (!options.mark) legend.add_ringed("maximum " + largest + '\n' + place(peak.at), governing_blue);
+  if (options.mark) legend.add_ringed(options.mark->text + '\n' + place(options.mark->at_m), governing_blue);
+  if (options.mark && distance(options.mark->at_m, peak.at) > single_precision)
+    legend.add_ringed("largest in colour: " + largest + '\n' + place(peak.at), ink);
+  if (!options.notes.empty()) legend.add("boxes: " + options.notes_are);
   if (some_excluded)
-    words += "\nhatched: " + (options.excluded_is.empty() ? "beside a sharp edge" : options.excluded_is);
-  const int n_lines = 1 + int(std::count(words.begin(), words.end(), '\n'));
-  add_text(legend, words, font_size, 0.12, 0.92 - line_height * n_lines);
-  return n_lines;
+    legend.add_hatched(options.excluded_is.empty() ? "beside a sharp edge" : options.excluded_is);
+  bar.left = legend.x();
+  bar.bottom = 1.2 * bar.font_size;
+  bar.height = legend.y() - 1.5 * bar.font_size - bar.bottom;
+  add_colour_bar(renderer, colours, bar);
 }
 
 }  // namespace
@@ -326,7 +332,7 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   const View& view = seen.view;
   const double lowest = drawn.surface->GetPointData()->GetScalars()->GetRange()[0];
   const double from = std::min(0., lowest);
-  const auto table = colours_of(
+  const auto table = colours_over(
       options.range.value_or(std::array<double, 2>{from, peak.value > from ? peak.value : from + 1}));
   const bool some_excluded = drawn.surface->GetPointData()->GetArray(border_array)->GetRange()[1] > 0;
   Frame all = frame_of(drawn.surface.get(), view);
@@ -355,9 +361,12 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
 
   const auto parts = parts_of(drawn.surface.get());
   constexpr double stripes_across_whole = 80, stripes_across_detail = 50;
-  add_drawn(whole, drawn, parts, table, 2 * extent / stripes_across_whole, false);
-  add_drawn(detail, drawn, parts, table, 2 * half_detail / stripes_across_detail, options.edges);
-  whole->AddActor(ring_at(shown, font_size));
+  add_drawn(whole, drawn, parts, table.get(), 2 * extent / stripes_across_whole, false);
+  add_drawn(detail, drawn, parts, table.get(), 2 * half_detail / stripes_across_detail, options.edges);
+  for (auto* renderer : {whole, detail}) {
+    if (distance(shown, peak.at) > single_precision) add_ring(renderer, peak.at, 0.7 * font_size, ink);
+    add_ring(renderer, shown, font_size, governing_blue);
+  }
   look(whole, view, all, width_over_height(layout.whole, options), 4 * all.half_depth);
   look(detail, view, {shown, half_detail, 0, half_detail}, width_over_height(layout.detail, options),
        4 * extent);
@@ -377,8 +386,15 @@ bool write_picture(const std::filesystem::path& vtu, const std::string& field, c
   add_triad(add({1 - 0.13, gap, 1, gap + 0.22}), whole);
 
   add_text(heading, title, font_size * 4 / 3, 0.02, 0.25);
-  const int n_lines = add_legend_text(legend, peak, unit, options, some_excluded, font_size);
-  legend->AddActor2D(colour_bar(table, unit, font_size, std::min(0.62, 0.8 - line_height * n_lines)));
+  const double legend_width = (layout.legend[2] - layout.legend[0]) * options.width,
+               legend_height = (layout.legend[3] - layout.legend[1]) * options.height;
+  ColourBar bar;
+  bar.width = 1.5 * font_size;
+  bar.unit = unit;
+  bar.peak = peak.value;
+  bar.font_size = font_size;
+  add_legend(Legend(legend, legend_width, legend_height, font_size), legend, table.get(), bar, peak, options,
+             some_excluded);
   write_png(window.get(), png);
   return true;
 }

@@ -1,8 +1,7 @@
 #include "pipelines/write/pictures/port_surface.h"
 
 #include <map>
-
-#include "pipelines/write/exports/vtk_files.h"
+#include <utility>
 
 namespace pipelines {
 namespace {
@@ -26,14 +25,18 @@ std::pair<NameList, IdField> mark(const char* ids, const char* names, const std:
 
 }  // namespace
 
+MarkedFaces marked_faces(const fem::Nodes& nodes, const meshes::BodyMesh& mesh) {
+  const auto& groups = nodes.face_boundary_id;
+  auto [port_names, ports] = mark(port_fields::port, port_fields::port_names, mesh.ports, groups);
+  auto [feature_names, features] =
+      mark(port_fields::feature, port_fields::feature_names, mesh.features, groups);
+  return {{std::move(port_names), std::move(feature_names)}, {std::move(ports), std::move(features)}};
+}
+
 void write_port_surface(const std::filesystem::path& vtu, const fem::Nodes& nodes,
                         const meshes::BodyMesh& mesh) {
-  const auto& groups = nodes.face_boundary_id;
-  const auto [port_names, ports] = mark(port_fields::port, port_fields::port_names, mesh.ports, groups);
-  const auto [feature_names, features] =
-      mark(port_fields::feature, port_fields::feature_names, mesh.features, groups);
-  write_surface_snapshot_vtu(vtu, nodes, {}, {ports, features}, VtuCompression::zlib,
-                             {port_names, feature_names});
+  const auto marks = marked_faces(nodes, mesh);
+  write_surface_snapshot_vtu(vtu, nodes, {}, marks.ids, VtuCompression::zlib, marks.names);
 }
 
 }  // namespace pipelines

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "fem/base/values/unit_responses.h"
 #include "meshes/values/body_mesh.h"
+#include "pipelines/write/exports/vtk_files.h"
 
 namespace pipelines {
 
@@ -15,6 +17,15 @@ inline constexpr const char* port_names = "port name";  ///< list
 inline constexpr const char* feature = "feature";       ///< per face: place in the list, from 1; 0: none
 inline constexpr const char* feature_names = "feature name";  ///< list
 }  // namespace port_fields
+
+/// Fields `port` and `feature` of the boundary faces, with the lists of names.
+struct MarkedFaces {
+  std::vector<NameList> names;
+  std::vector<IdField> ids;  ///< at cells of the surface
+};
+
+/// @param nodes  nodes of the body that was made of this mesh
+MarkedFaces marked_faces(const fem::Nodes& nodes, const meshes::BodyMesh& mesh);
 
 /// The boundary faces as a VTU file: per face `port`, `feature` and `boundary_id`; the names as field data.
 /// @param nodes  nodes of the body that was made of this mesh

@@ -29,6 +29,8 @@ std::vector<WritingCommand> writing_commands() {
             "loads.h5",
             "loads.csv",
             "duty.csv",
+            "bodies.vtm",
+            "paraview_view.py",
             "torsion/modes.csv",
             "shaft/mesh.msh",
             "shaft/zones.csv",

@@ -8,7 +8,6 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include <cmath>
 #include <regex>
 
 #include "tests/cases/program/browser.h"
@@ -33,12 +32,13 @@ Json expected_of(const fs::path& run, const std::string& body, int snapshot, con
   reader->Update();
   const vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
   auto* stress = grid->GetPointData()->GetArray("von Mises stress [Pa]");
+  auto* left_out = grid->GetPointData()->GetArray("left_out");
   Json points = Json::array();
   const auto n = grid->GetNumberOfPoints();
   for (vtkIdType k = 0, i = 17 % n; std::size_t(k) < points_of_a_snapshot; ++k, i = (i + 7919) % n)
-    if (const double value = stress->GetTuple1(i); std::isfinite(value)) {
+    if (left_out->GetTuple1(i) == 0) {
       const double* at_m = grid->GetPoint(i);
-      points.push_back({at_m[0], at_m[1], at_m[2], value});
+      points.push_back({at_m[0], at_m[1], at_m[2], stress->GetTuple1(i)});
     }
   return {{"body", body}, {"off", off}, {"time_s", std::stod((*found)[1])}, {"points", points}};
 }

@@ -65,6 +65,8 @@ TEST(Runs, RepeatBitByBitFreshAndReused) {
                                      "manifest.json",
                                      "run.json",
                                      "report.html",
+                                     "bodies.vtm",
+                                     "paraview_view.py",
                                      "shaft/mesh.msh",
                                      "shaft/envelope.vtu",
                                      "shaft/cycle.pvd",

@@ -431,6 +431,22 @@ TEST(Sweeps, TakeSettingsOfOperatingBlocks) {
   EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
 }
 
+// The scene says what is drawn and printed; --figure goes first.
+TEST(Sweeps, DrawWhatTheSceneNames) {
+  const results_test::Directory directory;
+  write(directory / "mill.toml", shaft_alone(coarse()) +
+                                     "\n[sweep]\nvary = [\"machine.charge.mass = 10..20 kg / 3\"]\n"
+                                     "figures = [\"loads.R_E.max\", \"loads.R_E.mean\"]\n");
+  const auto as_named = as_a_user(directory.path, "sweep mill.toml --loads -q -o swept");
+  ASSERT_EQ(as_named.exit_code, 0) << as_named.err;
+  EXPECT_NE(as_named.out.find("loads.R_E.mean"), std::string::npos) << as_named.out;
+  EXPECT_TRUE(fs::exists(directory / "swept/chart.png"));
+  const auto asked = as_a_user(directory.path, "sweep mill.toml --loads -q -o swept --figure loads.T.rms");
+  ASSERT_EQ(asked.exit_code, 0) << asked.err;
+  EXPECT_NE(asked.out.find("loads.T.rms"), std::string::npos);
+  EXPECT_EQ(asked.out.find("loads.R_E"), std::string::npos);
+}
+
 TEST(Sweeps, MayStandInTheScene) {
   const results_test::Directory directory;
   write(directory / "mill.toml", shaft_alone(coarse()) +

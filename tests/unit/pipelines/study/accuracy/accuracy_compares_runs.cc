@@ -47,6 +47,20 @@ TEST(CompareRuns, CheapestFirstFrontierAndChoice) {
       << study.next_factor_of_two;
 }
 
+// The reference knows itself to 1 MPa: a run at 0.4 MPa is as close as can be told, and a dearer one at 0.1
+// MPa is not told from it.
+TEST(CompareRuns, TheFrontierEndsWhereTheReferenceKnowsNoMore) {
+  AccuracyStudy study;
+  study.tolerance = 0.05;
+  study.rows = {row("beam", 0.1, 90, 15), row("close", 2, 100.4, 3), row("closer", 4, 100.1, 3),
+                row("overkill", 8, 100, 1)};
+  compare_runs(study, 0);
+  ASSERT_TRUE(study.rows[3].is_reference);
+  EXPECT_TRUE(study.rows[0].on_frontier);
+  EXPECT_TRUE(study.rows[1].on_frontier);
+  EXPECT_FALSE(study.rows[2].on_frontier);
+}
+
 // Without a known value the run with the smallest estimate is it, and its own estimate counts for the others.
 TEST(CompareRuns, TheBestRunIsTheReference) {
   auto study = four_runs();

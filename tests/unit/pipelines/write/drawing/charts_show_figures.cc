@@ -84,6 +84,37 @@ TEST(Charts, ShowEachCurveAtItsHeight) {
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
 }
 
+// No legend to look up: right of the plot each name stands in its curve's colour at its curve's height, and
+// those of curves that end together make room.
+TEST(Charts, NameCurvesAtTheirEnds) {
+  const Directory directory;
+  LineChart chart;
+  chart.curves.push_back({"low", {0, 1, 2}, {1, 1, 1}, {}, true});
+  chart.curves.push_back({"high", {0, 1, 2}, {3, 3, 3}, {}, true});
+  chart.curves.push_back({"as high", {0, 1, 2}, {2, 2.5, 2.99}, {}, true});
+  ASSERT_TRUE(write_chart(chart, directory / "chart"));
+  const PictureOfChart picture(directory / "chart.png");
+  const auto height_of_name = [&](const Rgb& colour) {
+    int n = 0;
+    double sum = 0;
+    for (int y = 0; y < picture.height(); ++y)
+      for (int x = picture.width() - 110; x < picture.width(); ++x) {
+        const auto found = picture.at(x, y);
+        bool is_own = true;
+        for (std::size_t c = 0; c < 3; ++c) is_own = is_own && std::abs(found[c] - colour[c]) < 40;
+        n += is_own;
+        sum += is_own ? y : 0;
+      }
+    EXPECT_GT(n, 20);
+    return sum / std::max(n, 1);
+  };
+  const double low = height_of_name(first_colour), high = height_of_name(second_colour),
+               as_high = height_of_name({0, 158, 115});
+  EXPECT_NEAR(low, picture.area_of(first_colour).second, 12);
+  EXPECT_NEAR(high, picture.area_of(second_colour).second, 40);
+  EXPECT_GT(std::abs(high - as_high), 15) << "they do not cover each other";
+}
+
 // The curve of a port "x" took the place of the numbers along x: an internal error ended all charts.
 TEST(Charts, ShowACurveNamedAsAnAxis) {
   const Directory directory;
