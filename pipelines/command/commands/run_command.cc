@@ -45,6 +45,7 @@
 #include "pipelines/search/loop/duty_run.h"
 #include "pipelines/search/loop/scene_run.h"
 #include "pipelines/study/accuracy/cost_forecast.h"
+#include "pipelines/write/files/envelope_files.h"
 #include "pipelines/write/files/results.h"
 #include "pipelines/write/files/run_record.h"
 #include "pipelines/write/files/staged_results.h"
@@ -278,6 +279,7 @@ std::vector<std::string> write_and_draw(const Request& request, const Scene& sce
       write_body_results(place(i), run.loaded.scene, loads, run.analyses[i], n_ranks, n_threads);
       if (scene.keep == Keep::all) write_responses(place(i), run, run.analyses[i]);
     } else if (is_first_rank()) {
+      write_bodies_together(folder, body_names(scene), n_ranks);
       write_loads_h5(folder / "loads.h5", loads, run.loaded.channels());
       if (scene.keep == Keep::all)
         write_loads_csv(folder / "loads.csv", loads, run.loaded.channels(), n_threads);

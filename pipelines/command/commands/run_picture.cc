@@ -79,7 +79,7 @@ std::string draw_envelope(const std::filesystem::path& place, const SceneRun& ru
                           const DutyResult* duty) {
   const auto draw = [&](const std::filesystem::path& envelope) {
     return write_picture(
-        envelope, pictured_field(analysis),
+        envelope, von_mises_field,
         run.loaded.scene.title + ", " + analysis.scene.name + ": largest von Mises stress over the cycle",
         "MPa", place / "envelope.png", picture_options(run, analysis, duty));
   };

@@ -237,10 +237,6 @@ std::string in_MPa(const std::string& field) {
   return field.substr(0, field.size() - unit.size()) + "[MPa]";
 }
 
-std::string pictured_field(const Superposed&) {
-  return von_mises_field;
-}
-
 void write_envelope_files(const path& directory, const Scene& scene, const kinetics::LoadHistory& loads,
                           const Judged& analysis, int n_pieces) {
   auto moved_m = governing_displacement_m(analysis);

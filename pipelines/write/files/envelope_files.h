@@ -34,9 +34,6 @@ inline constexpr const char* surface_field = "on the surface";
 /// The field of a stress in MPa, beside the one in Pa: "von Mises stress, maximum [MPa]".
 std::string in_MPa(const std::string& field);
 
-/// The field of the envelope that pictures show.
-std::string pictured_field(const Superposed& analysis);
-
 /// envelope.vtu, or in several pieces envelope.pvtu with envelope_0.vtu ... Field data: the governing stress
 /// with position and place, names of zones, ports and features. Called on all ranks that share the body.
 void write_envelope_files(const std::filesystem::path& directory, const Scene& scene,

@@ -32,12 +32,6 @@ std::vector<ZonePart> zone_tree(const Zones& zones) {
   return rows;
 }
 
-std::vector<std::string> names_of_bodies(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const auto& body : scene.bodies) names.push_back(body.name);
-  return names;
-}
-
 }  // namespace
 
 void write_mesh(const path& file, const meshes::BodyMesh& mesh) {
@@ -52,8 +46,6 @@ void write_body_results(const path& directory, const Scene& scene, const kinetic
   write_envelope_files(directory, scene, loads, analysis, n_pieces);
   write_cycle_files(directory, scene, loads, analysis, n_threads);
   if (!is_first_rank()) return;
-  if (analysis.scene.name == scene.bodies.back().name)
-    write_bodies_together(directory.parent_path(), names_of_bodies(scene), n_pieces);
   const BodyResult body{scene, loads, analysis};
   write_rows(directory / "zones.csv", zone_fields(), body, analysis.zones.zones);
   write_rows(directory / "zone_tree.csv", zone_part_fields(), body, zone_tree(analysis.zones));

@@ -18,8 +18,7 @@ void write_mesh(const std::filesystem::path& file, const meshes::BodyMesh& mesh)
 /// Writes into `directory`: mesh.msh of a solid; envelope.vtu, cycle.pvd with cycle_*.vtu, zones.csv,
 /// zone_tree.csv; hot_spots.csv for a body with weld toes; diagrams.csv, torsion.csv, torsion_cycle.csv for a
 /// parametric shaft or drum; element_torques.csv, start_up.csv for a shaft of a drive train
-/// (shaft_torsion_report.h). The last of the scene's bodies brings bodies.vtm and paraview_view.py of all of
-/// them into the directory above.
+/// (shaft_torsion_report.h).
 /// @param n_pieces  pieces of the envelope, one for each MPI rank: with several of them envelope.pvtu and
 ///                  envelope_<rank>.vtu stand for envelope.vtu
 /// @param n_threads  that format and compress; the bytes are the same for any number
