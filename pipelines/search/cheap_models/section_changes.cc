@@ -21,14 +21,16 @@ struct Trust {
   double least_ratio;         ///< of three sections; the first is coarse
   double hidden_share;        ///< of the change before the last, of three sections
   double least_share_of_two;  ///< of the value
-  double least_share;         ///< of the value, of three sections and more
 };
+/// Of the value, of three sections and more: what no cut lowers. Source: a fillet of shaft 11 of the
+/// benchmark of harmonics stood still 8e-5 above the truth.
+constexpr double least_share = 1e-4;
 /// Parts of third and first order of any sizes and one sign are bounded.
-constexpr Trust usual{1.75, 0.3, 1.0 / 6, 0.002, 1e-4};
+constexpr Trust usual{1.75, 0.3, 1.0 / 6, 0.002};
 /// An error with parts a of third and b of first order on the first section is bounded on the second one for
 /// b / a from -0.7 to 1.2, on the third one from -0.2 to 0.3, above which the ratio exceeds
 /// `most_of_third_order`. Where the maximum has moved between two sections their change says less.
-constexpr Trust of_fillet{0.5, 1.0 / 6, 1.0 / 20, 0.0015, 3e-5};
+constexpr Trust of_fillet{0.5, 1.0 / 6, 1.0 / 20, 0.0015};
 constexpr double most_of_third_order = 0.18;
 /// With b / a from 0.18, where the ratio exceeds 0.16, more than the least ratio is needed: a fifth up to
 /// 0.3.
@@ -58,7 +60,7 @@ double missing_Pa(const std::vector<double>& values_Pa, Surroundings where) {
       ratio *= ratio * std::abs(change_Pa(3)) / before_Pa;
   }
   ratio = std::clamp(ratio, least, most_ratio);
-  return std::max({safety * last_Pa * ratio / (1 - ratio), hidden * before_Pa, trust.least_share * value_Pa});
+  return std::max({safety * last_Pa * ratio / (1 - ratio), hidden * before_Pa, least_share * value_Pa});
 }
 
 }  // namespace pipelines

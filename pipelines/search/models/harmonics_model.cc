@@ -11,12 +11,19 @@
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
 #include "pipelines/search/cheap_models/axisymmetric_refinement.h"
 #include "pipelines/search/cheap_models/cheap_responses.h"
+#include "pipelines/search/cheap_models/fitted.h"
 
 namespace pipelines {
 namespace {
 
 /// The error that the discretisation may have: half of a tolerance, and without one what a second buys.
 constexpr double share_of_tolerance = 0.5, usual_target = 0.01;
+
+/// Of a section that is the second one: whether the third is to tell by which order the errors fall.
+bool is_order_asked(double tolerance, const AxisymmetricStep& step) {
+  return tolerance > 0 && tolerance <= fitted::asks_for_order &&
+         step.responses.n_dofs <= fitted::most_before_order;
+}
 
 /// Bending by axial force and torsion by force across, both by the offset of an eccentric segment's axis from
 /// that of the model; largest over sections and instants, as von Mises stress.
@@ -102,7 +109,8 @@ Judged HarmonicsModel::solve() {
   auto step = series_->refinement.next(clock());
   ++series_->n_sections;
   const double target = run_.tolerance > 0 ? share_of_tolerance * run_.tolerance : usual_target;
-  is_section_fine_ = AxisymmetricRefinement::is_met(step, target);
+  is_section_fine_ = AxisymmetricRefinement::is_met(step, target) &&
+                     (series_->n_sections > 2 || !is_order_asked(run_.tolerance, step));
   fineness_ = step.fineness;
   places_ = std::move(step.places);
   torsion_ = step.torsion;

@@ -1,14 +1,11 @@
 /// Stated errors of harmonics around the axis beside true ones, on shafts drawn at random.
-///   harmonics [shafts [first seed]] [--kind plain|sharp|drum|eccentric] [--tolerance P]... [--list]
-///   harmonics ... --sections N | --check
-/// --tolerance: per cent; --list: a line for each place; --sections: instead, values of places on N sections;
-/// --check: instead, the truth once more on cells a third smaller.
+/// `--help` tells the options.
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -39,7 +36,7 @@ struct Options {
   int n_shafts = 200;
   unsigned first_seed = 1;
   std::string kind = "plain";
-  std::vector<double> tolerances;
+  std::vector<double> tolerances_percent{5, 1, 0.5, 0.2, 0.1};
   int n_sections = 0;
   bool check = false, list = false;
 };
@@ -67,7 +64,7 @@ double quantile(std::vector<double> values, double share) {
   return values[below] + (at - double(below)) * (above - values[below]);
 }
 
-void print_row(double tolerance, const char* what, const std::vector<Figure>& figures) {
+void print_row(double tolerance_percent, const char* what, const std::vector<Figure>& figures) {
   if (figures.empty()) return;
   std::vector<double> ratios, signed_off, off, stated;
   int n_bounded = 0;
@@ -84,7 +81,7 @@ void print_row(double tolerance, const char* what, const std::vector<Figure>& fi
   fmt::print(
       "| {:g} % | {} | {} | {:.2f} | {:.2f}, {:.2f} | {:.1f} % | {:.2f} | {:.4f} % | {:.4f} % | {:.4f} % | "
       "{:.0f} % |\n",
-      100 * tolerance, what, figures.size(), quantile(ratios, 0.5), quantile(ratios, 0.25),
+      tolerance_percent, what, figures.size(), quantile(ratios, 0.5), quantile(ratios, 0.25),
       quantile(ratios, 0.75), 100.0 * n_bounded / double(figures.size()), worst, quantile(stated, 0.5),
       quantile(off, 0.5), quantile(signed_off, 0.5), 100.0 * double(n_low) / double(figures.size()));
 }
@@ -215,8 +212,8 @@ void judge(unsigned seed, const Scene& scene, const Options& options, std::vecto
   std::vector<Run> runs;
   std::set<int> truncations;
   int most = scene.bodies.front().pressure_harmonics;
-  for (const double tolerance : options.tolerances) {
-    runs.push_back(run(scene, tolerance));
+  for (const double percent : options.tolerances_percent) {
+    runs.push_back(run(scene, percent / 100));
     truncations.insert(runs.back().harmonics);
     most = std::max(most, runs.back().harmonics);
   }
@@ -233,7 +230,7 @@ void judge(unsigned seed, const Scene& scene, const Options& options, std::vecto
     table.peaks.push_back(peak);
     if (options.list || !peak.is_bounded()) {
       fmt::print("{} at {:g} %: {:.4f} MPa +- {:.4f}, {:.4f} is right ({}, {} sections, {} harmonics{}){}\n",
-                 seed, 100 * options.tolerances[t], peak.value_Pa / 1e6, peak.stated_Pa / 1e6,
+                 seed, options.tolerances_percent[t], peak.value_Pa / 1e6, peak.stated_Pa / 1e6,
                  peak.truth_Pa / 1e6, analysis.peak.feature, analysis.search.steps.size(), last,
                  analysis.search.met ? "" : ", not met", peak.is_bounded() ? "" : " NOT BOUNDED");
       if (!peak.is_bounded())
@@ -248,7 +245,7 @@ void judge(unsigned seed, const Scene& scene, const Options& options, std::vecto
       table.places.push_back(figure);
       if (options.list || !figure.is_bounded())
         fmt::print("   {} at {:g} %: {:20} {:10.4f} MPa +- {:.4f}, {:.4f} is right{}\n", seed,
-                   100 * options.tolerances[t], place.feature, figure.value_Pa / 1e6, figure.stated_Pa / 1e6,
+                   options.tolerances_percent[t], place.feature, figure.value_Pa / 1e6, figure.stated_Pa / 1e6,
                    figure.truth_Pa / 1e6, figure.is_bounded() ? "" : " NOT BOUNDED");
     }
     const auto* ring = analysis.diagrams ? largest_torsion_ring(*analysis.diagrams) : nullptr;
@@ -257,44 +254,48 @@ void judge(unsigned seed, const Scene& scene, const Options& options, std::vecto
     table.torsion.push_back(figure);
     if (options.list || !figure.is_bounded())
       fmt::print("   {} at {:g} %: torsional stress {:.4f} MPa +- {:.4f}, {:.4f} is right{}\n", seed,
-                 100 * options.tolerances[t], figure.value_Pa / 1e6, figure.stated_Pa / 1e6,
+                 options.tolerances_percent[t], figure.value_Pa / 1e6, figure.stated_Pa / 1e6,
                  figure.truth_Pa / 1e6, figure.is_bounded() ? "" : " NOT BOUNDED");
   }
 }
 
-Options options_of(int argc, char** argv) {
-  Options options;
-  int position = 0;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--sections") == 0 && i + 1 < argc) {
-      options.n_sections = std::stoi(argv[++i]);
-    } else if (std::strcmp(argv[i], "--check") == 0) {
-      options.check = true;
-    } else if (std::strcmp(argv[i], "--list") == 0) {
-      options.list = true;
-    } else if (std::strcmp(argv[i], "--kind") == 0 && i + 1 < argc) {
-      options.kind = argv[++i];
-    } else if (std::strcmp(argv[i], "--tolerance") == 0 && i + 1 < argc) {
-      options.tolerances.push_back(std::stod(argv[++i]) / 100);
-    } else if (++position == 1) {
-      options.n_shafts = std::stoi(argv[i]);
-    } else {
-      options.first_seed = unsigned(std::stoul(argv[i]));
-    }
-  }
-  if (options.tolerances.empty()) options.tolerances = {0.05, 0.01, 0.005, 0.002, 0.001};
-  return options;
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("shafts", options.n_shafts, "how many are drawn (200)")->check(CLI::PositiveNumber);
+  app.add_option("first_seed", options.first_seed, "of the first of them (1)");
+  app.add_option("--kind", options.kind, "what is made of the drawings")
+      ->check(CLI::IsMember({"plain", "sharp", "drum", "eccentric"}));
+  app.add_option("--tolerance", options.tolerances_percent,
+                 "per cent, any number of times (5, 1, 0.5, 0.2 and 0.1)")
+      ->allow_extra_args(false)
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--list", options.list, "a line for each place");
+  auto* sections = app.add_option("--sections", options.n_sections, "instead, values of places on N sections")
+                       ->check(CLI::Range(1, AxisymmetricRefinement::most_steps));
+  app.add_flag("--check", options.check, "instead, the truth once more on cells a third smaller")
+      ->excludes(sections);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const Options options = options_of(argc, argv);
+  Options options;
+  CLI::App app("Stated errors of harmonics around the axis beside true ones, on shafts drawn at random.",
+               "harmonics_benchmark");
+  add_options(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    fmt::print("{}", app.help());
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "harmonics_benchmark: {}\n", error.what());
+    return 2;
+  }
   const fem::Environment environment(1);
   const fs::path directory =
       fs::temp_directory_path() / fmt::format("millstress_harmonics_{}_{}", options.first_seed, getpid());
   fs::create_directories(directory);
-  std::vector<Table> tables(options.tolerances.size());
+  std::vector<Table> tables(options.tolerances_percent.size());
   int n_shafts = 0, n_refused = 0;
   for (unsigned seed = options.first_seed; n_shafts < options.n_shafts && n_refused <= options.n_shafts;
        ++seed) {
@@ -322,16 +323,16 @@ int main(int argc, char** argv) {
   fmt::print("{} shafts ({}), from seed {}, {} drawings refused; met at", n_shafts, options.kind,
              options.first_seed, n_refused);
   for (std::size_t t = 0; t < tables.size(); ++t)
-    fmt::print(" {:g} %: {}", 100 * options.tolerances[t], tables[t].n_met);
+    fmt::print(" {:g} %: {}", options.tolerances_percent[t], tables[t].n_met);
   fmt::print(
       "\n| asked | of | n | stated / true, median | quartiles | bounded | true / stated, worst | stated, "
       "median | "
       "true, median | bias, median | low |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   std::size_t n_figures = 0, n_bounded = 0;
   for (std::size_t t = 0; t < tables.size(); ++t) {
-    print_row(options.tolerances[t], "peak", tables[t].peaks);
-    print_row(options.tolerances[t], "places", tables[t].places);
-    print_row(options.tolerances[t], "torsion", tables[t].torsion);
+    print_row(options.tolerances_percent[t], "peak", tables[t].peaks);
+    print_row(options.tolerances_percent[t], "places", tables[t].places);
+    print_row(options.tolerances_percent[t], "torsion", tables[t].torsion);
     for (const auto* figures : {&tables[t].peaks, &tables[t].places, &tables[t].torsion})
       for (const auto& figure : *figures) {
         ++n_figures;
