@@ -100,8 +100,8 @@ std::vector<std::string> fatigue_assumptions(const Judged& analysis) {
   lines.push_back(
       fmt::format("safety factor {:.3g} ({}); mean-stress sensitivity {:.3f}; S-N slope {:.3g}, knee at "
                   "{:.0e} cycles",
-                  scene.safety, scene.safety_reason, limit.mean_stress_sensitivity,
-                  rules.group().slope, rules.group().knee_cycles));
+                  scene.safety, scene.safety_reason, limit.mean_stress_sensitivity, rules.group().slope,
+                  rules.group().knee_cycles));
   lines.emplace_back(
       "amplitude: half the von Mises stress of the difference of two instants; mean: signed von Mises stress "
       "of their middle, by FKM's Haigh diagram at constant stress ratio (F2)");

@@ -245,8 +245,8 @@ void judge(unsigned seed, const Scene& scene, const Options& options, std::vecto
       table.places.push_back(figure);
       if (options.list || !figure.is_bounded())
         fmt::print("   {} at {:g} %: {:20} {:10.4f} MPa +- {:.4f}, {:.4f} is right{}\n", seed,
-                   options.tolerances_percent[t], place.feature, figure.value_Pa / 1e6, figure.stated_Pa / 1e6,
-                   figure.truth_Pa / 1e6, figure.is_bounded() ? "" : " NOT BOUNDED");
+                   options.tolerances_percent[t], place.feature, figure.value_Pa / 1e6,
+                   figure.stated_Pa / 1e6, figure.truth_Pa / 1e6, figure.is_bounded() ? "" : " NOT BOUNDED");
     }
     const auto* ring = analysis.diagrams ? largest_torsion_ring(*analysis.diagrams) : nullptr;
     if (ring == nullptr || is_rounding(analysis, *ring) || truth.torsion_Pa < 1e-3 * peak_Pa) continue;
