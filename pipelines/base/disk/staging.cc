@@ -191,6 +191,11 @@ void Staging::record(const fs::path& file) {
   files_[name] = std::uintmax_t(status->st_size);
 }
 
+void Staging::forget(const fs::path& file) {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  files_.erase(file.lexically_relative(folder_.path()).generic_string());
+}
+
 std::map<std::string, std::uintmax_t> Staging::complete_files() const {
   const std::lock_guard<std::mutex> guard(mutex_);
   const auto refuse = [&](const std::string& name, const std::string& why) {

@@ -54,6 +54,9 @@ public:
   /// Remembers a file below the folder as complete. May be called from any thread.
   void record(const std::filesystem::path& file);
 
+  /// Takes a file that is not kept from what was recorded.
+  void forget(const std::filesystem::path& file);
+
   /// The files that were recorded, by their names in the folder, with their sizes.
   /// @throws FileError if one is missing or of another size, or if there are others beside them
   std::map<std::string, std::uintmax_t> complete_files() const;

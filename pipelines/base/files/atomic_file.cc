@@ -63,7 +63,9 @@ AtomicFile::AtomicFile(std::filesystem::path target, IsOwnFile is_own)
 
 AtomicFile::~AtomicFile() {
   std::error_code ignored;
-  if (!committed_ && !staging_) std::filesystem::remove(temporary_, ignored);
+  if (committed_ || staging_) return;
+  std::filesystem::remove(temporary_, ignored);
+  if (auto* staging = Staging::of(target_)) staging->forget(target_);
 }
 
 void AtomicFile::commit(std::string_view end) {

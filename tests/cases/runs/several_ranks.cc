@@ -10,6 +10,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include "tests/cases/program/program.h"
 #include "tests/cases/program/small_shaft.h"
@@ -40,6 +41,13 @@ std::size_t count(const std::string& text, const std::string& word) {
   std::size_t n = 0;
   for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
   return n;
+}
+
+std::set<std::string> files_below(const fs::path& directory) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(directory))
+    if (entry.is_regular_file()) names.insert(entry.path().lexically_relative(directory).generic_string());
+  return names;
 }
 
 template <typename Reader>
@@ -76,7 +84,9 @@ double step_of(const std::string& field) {
 TEST(SeveralRanks, GiveTheResultsOfOne) {
   const results_test::Directory directory;
   write(directory / "scene.toml", small_scene());
-  const std::string run = "run scene.toml --threads 1 --set results.snapshots=2 --set results.keep=all -o ";
+  const std::string run =
+      "run scene.toml --threads 1 --set results.snapshots=2 --set results.keep=all --set "
+      "results.pictures=true -o ";
   const auto one = millstress(directory.path, run + "one");
   ASSERT_EQ(one.exit_code, 0) << one.err;
   const auto two = on_two_ranks(directory.path, run + "two");
@@ -90,8 +100,11 @@ TEST(SeveralRanks, GiveTheResultsOfOne) {
   EXPECT_FALSE(summary(directory / "one")["bodies"]["shaft"]["solver"].contains("ranks"));
 
   const auto shaft = directory / "two/shaft";
-  EXPECT_FALSE(fs::exists(shaft / "envelope.vtu"));
-  ASSERT_TRUE(fs::exists(shaft / "envelope_0.vtu") && fs::exists(shaft / "envelope_1.vtu"));
+  auto expected = files_below(directory / "one");
+  ASSERT_EQ(expected.erase("shaft/envelope.vtu"), 1u);
+  expected.insert({"shaft/envelope.pvtu", "shaft/envelope_0.vtu", "shaft/envelope_1.vtu"});
+  EXPECT_EQ(files_below(directory / "two"), expected);
+  EXPECT_EQ(expected.count("shaft/envelope.png"), 1u);
   const auto whole = read<vtkXMLUnstructuredGridReader>(directory / "one/shaft/envelope.vtu");
   const auto pieces = read<vtkXMLPUnstructuredGridReader>(shaft / "envelope.pvtu");
   EXPECT_EQ(pieces->GetNumberOfCells(), whole->GetNumberOfCells());
