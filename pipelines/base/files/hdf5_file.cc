@@ -170,7 +170,7 @@ void write_dataset(hid_t root, const std::string& file, const std::string& path,
                      file, path, "no data space");
   const Handle creation = property_list(H5P_DATASET_CREATE, file);
   if (H5Pset_obj_track_times(creation, false) < 0) fail(file, path, "cannot switch object times off");
-  const bool compressed = compression == Hdf5Compression::deflate && !empty;
+  const bool compressed = compression != Hdf5Compression::none && !empty;
   const bool constant =
       compressed && values != nullptr && is_constant(values, count_of(shape), H5Tget_size(memory_type));
   if (compressed) {
@@ -258,7 +258,9 @@ Hdf5Writer::~Hdf5Writer() {
 
 void Hdf5Writer::write(const std::string& object, const double* values, const std::vector<std::size_t>& shape,
                        const Hdf5Label& label, Hdf5Compression compression) {
-  write_dataset(id_, file_, object, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, values, shape, label, compression);
+  write_dataset(id_, file_, object, H5T_NATIVE_DOUBLE,
+                compression == Hdf5Compression::deflate_single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE, values,
+                shape, label, compression);
 }
 
 void Hdf5Writer::write(const std::string& object, const std::int32_t* values,

@@ -21,8 +21,9 @@ struct Hdf5Label {
 
 enum class Hdf5Compression {
   none,
-  deflate
-};  ///< deflate: bytes shuffled first, one chunk of about 1 MB per piece; of equal values one is kept
+  deflate,        ///< bytes shuffled first, one chunk of about 1 MB per piece; of equal values one is kept
+  deflate_single  ///< doubles as floats of 32 bits, and then as deflate
+};
 
 class Hdf5Writer {
 public:

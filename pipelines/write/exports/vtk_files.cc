@@ -174,9 +174,13 @@ void write_grid(const std::filesystem::path& path, const Cells& cells, const fem
   writer->SetHeaderTypeToUInt64();
   if (compression == VtuCompression::none)
     writer->SetCompressorTypeToNone();
-  else
+  else if (compression == VtuCompression::zlib)
     writer->SetCompressorTypeToZLib();
-  writer->SetCompressionLevel(1);  // half the time of the default for one percent more bytes
+  else
+    writer->SetCompressorTypeToLZMA();
+  // A seventh of the default's time for 6 % more bytes.
+  writer->SetCompressionLevel(compression == VtuCompression::zlib ? 3 : 1);
+  writer->SetBlockSize(1 << 20);  // 5 % fewer bytes than by the default of 32 kB, by LZMA 20 %
   if (!writer->Write() || writer->GetErrorCode() != 0 || failed)
     throw FileError(shown(path) + ": cannot be written; check the directory and the free space");
   file.commit("</VTKFile>\n");

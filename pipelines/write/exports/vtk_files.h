@@ -56,7 +56,11 @@ struct FieldData {
   std::vector<NumberList> numbers;
 };
 
-enum class VtuCompression { none, zlib };
+enum class VtuCompression {
+  none,
+  zlib,
+  lzma  ///< two thirds of the bytes for seven times the seconds
+};
 
 /// The files have indices of 32 bits: numbers of nodes, and the place where each cell's list of nodes ends.
 /// @throws FileError naming the file, what it would hold and the remedy if they do not suffice

@@ -33,17 +33,17 @@ std::vector<double> flatten(const std::vector<Stress>& tensors) {
 }
 
 /// Rounds to multiples of a power of two: the zeros that this leaves at the end of the numbers make files a
-/// quarter smaller.
+/// third smaller.
 void round_to(double step, std::vector<double>& values) {
   if (step > 0)
     for (double& value : values) value = std::round(value / step) * step;
 }
 
-/// A step that no viewer shows: 2^-16 of the largest value, or less.
+/// A step that no viewer shows: 2^-12 of the largest value, or less.
 double fine_step(const std::vector<double>& values) {
   double largest = 0;
   for (const double value : values) largest = std::max(largest, std::abs(value));
-  return largest > 0 ? std::exp2(std::ilogb(largest) - 16) : 0;
+  return largest > 0 ? std::exp2(std::ilogb(largest) - 12) : 0;
 }
 
 /// Fields with the values that they stand for.
@@ -173,7 +173,7 @@ void write_envelope(const path& file, const Scene& scene, const kinetics::LoadHi
   fields.add("drive angle of largest principal stress [deg]", angles(envelope.principal.instant));
   fields.add_tensor("stress at largest principal stress [Pa]", flatten(envelope.principal.stress_Pa));
   std::vector<double> shares(envelope.effect_share.begin(), envelope.effect_share.end());
-  round_to(1.0 / 8192, shares);  // with all digits they would be a third of the file
+  round_to(1.0 / 1024, shares);  // with all digits they would be a third of the file
   fields.add("effect share", std::move(shares), int(effects.size()), effects);
   if (!moved_m.empty()) fields.add_displacement("displacement at governing stress [m]", std::move(moved_m));
   if (auto beyond_m = beyond_left_out_m(nodes, analysis.places, analysis.mesh.sharp_edges); !beyond_m.empty())
@@ -267,7 +267,7 @@ void write_cycle_files(const path& directory, const Scene& scene, const kinetics
   if (!entries.empty()) {
     auto [names, ids] = marked_faces(analysis.responses.nodes, analysis.mesh);
     ids.push_back(excluded_ids(analysis.places));
-    const SurfaceSnapshots files(analysis.responses.nodes, std::move(ids), VtuCompression::zlib,
+    const SurfaceSnapshots files(analysis.responses.nodes, std::move(ids), VtuCompression::lzma,
                                  std::move(names));
     const int at_once = threads_in_step(analysis.responses, n_threads);
     for_each_parallel(entries.size(), at_once, [&](std::size_t, std::size_t s) {

@@ -9,6 +9,7 @@
 #include "pipelines/base/files/whole_file.h"
 #include "pipelines/scene/values/effect_groups.h"
 #include "pipelines/scene/whole/body_effects.h"
+#include "pipelines/write/exports/html_page.h"
 #include "pipelines/write/living/living_body.h"
 
 namespace pipelines {
@@ -151,13 +152,6 @@ std::string in_script(std::string text) {
   return text;
 }
 
-std::string between(const std::string& page, const std::string& begin, const std::string& end) {
-  const auto first = page.find(begin);
-  if (first == std::string::npos) return {};
-  const auto from = first + begin.size(), to = page.find(end, from);
-  return to == std::string::npos ? std::string() : page.substr(from, to - from);
-}
-
 }  // namespace
 
 LivingPage living_page(const Loaded& loaded, const std::vector<Judged>& analyses, int n_threads) {
@@ -182,16 +176,22 @@ LivingPage living_page(const Loaded& loaded, const std::vector<Judged>& analyses
   json["resultants"] = resultants_json(loads, shown, block);
   json["scene"] = whole_file(loaded.scene.file, most_scene_bytes).value_or("");
   json["index"] = block.index();
-  return {in_script(json.dump(-1, ' ', false, Json::error_handler_t::replace)), block.text()};
+  return {in_script(json.dump(-1, ' ', false, Json::error_handler_t::replace)), block.deflated()};
 }
 
 std::string living_elements(const LivingPage& living) {
   if (living.empty()) return {};
-  return keys_element + living.keys + element_end + data_element + living.data + element_end;
+  return keys_element + living.keys + element_end + data_element + base64(living.data) + element_end;
 }
 
-LivingPage living_of(const std::string& page) {
-  return {between(page, keys_element, element_end), between(page, data_element, element_end)};
+std::string living_file(const LivingPage& living) {
+  return living.keys + '\n' + living.data;
+}
+
+LivingPage living_of(const std::string& content) {
+  const auto line = content.find('\n');
+  if (line == std::string::npos) return {};
+  return {content.substr(0, line), content.substr(line + 1)};
 }
 
 }  // namespace pipelines

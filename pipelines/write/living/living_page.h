@@ -14,8 +14,8 @@ namespace pipelines {
 inline constexpr const char* living_data_name = "report.data";
 
 struct LivingPage {
-  std::string keys;  ///< JSON; README.md of this room has its keys
-  std::string data;  ///< sections of numbers (packed_block.h)
+  std::string keys;  ///< JSON on one line; README.md of this room has its keys
+  std::string data;  ///< bytes: sections of numbers, deflated (packed_block.h)
 
   bool empty() const { return keys.empty(); }
 };
@@ -25,10 +25,13 @@ struct LivingPage {
 /// @param analyses  in the order of the scene's bodies; none: the loads alone
 LivingPage living_page(const Loaded& loaded, const std::vector<Judged>& analyses, int n_threads);
 
-/// The elements of a page that hold it.
+/// The elements of a page that hold it, the bytes in base64.
 std::string living_elements(const LivingPage& living);
 
-/// Reads them from a page; empty where it has none.
-LivingPage living_of(const std::string& page);
+/// The content of the file that keeps it: the line of keys, and the bytes.
+std::string living_file(const LivingPage& living);
+
+/// Reads what living_file wrote; empty where there is no line.
+LivingPage living_of(const std::string& content);
 
 }  // namespace pipelines

@@ -7,8 +7,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "pipelines/write/exports/html_page.h"
-
 namespace pipelines {
 
 template <typename Number>
@@ -60,15 +58,15 @@ summary::Json PackedBlock::add_range(const std::string& name, const std::vector<
   return summary::Json::array({summary::number(*least), summary::number(*least + span)});
 }
 
-std::string PackedBlock::text() const {
+std::string PackedBlock::deflated() const {
   auto size = compressBound(bytes_.size());
-  std::string deflated(size, '\0');
+  std::string bytes(size, '\0');
   constexpr int level = 6;  // 9 takes four times as long for a hundredth
-  if (compress2(reinterpret_cast<Bytef*>(deflated.data()), &size,
-                reinterpret_cast<const Bytef*>(bytes_.data()), bytes_.size(), level) != Z_OK)
+  if (compress2(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(bytes_.data()),
+                bytes_.size(), level) != Z_OK)
     throw std::runtime_error("zlib does not compress the data of report.html");
-  deflated.resize(size);
-  return base64(deflated);
+  bytes.resize(size);
+  return bytes;
 }
 
 }  // namespace pipelines

@@ -1,4 +1,4 @@
-/// Arrays of numbers as one text inside a page.
+/// Arrays of numbers as one block inside a page.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ public:
   /// By name: [kind, first byte, count]; kinds are i16, u16, u32, f32 and u8.
   const summary::Json& index() const { return index_; }
 
-  /// All sections, deflated (zlib, RFC 1950) and in base64.
-  std::string text() const;
+  /// All sections, deflated (zlib, RFC 1950).
+  std::string deflated() const;
 
 private:
   template <typename Number>

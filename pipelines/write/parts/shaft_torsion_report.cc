@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <charconv>
 #include <ostream>
 
 #include "pipelines/base/fields/shown_unit.h"
@@ -25,6 +26,14 @@ Json section_rows(const FieldTable<SectionRow>& fields, const Judged& analysis) 
   for (const auto& section : analysis.diagrams->sections)
     rows.push_back(whole_row(fields, SectionRow{section, analysis.peak.instant}));
   return rows;
+}
+
+/// Nine digits: with all of them a table of each instant is twice as long.
+void round_to_digits(CsvColumn& column) {
+  for (double& value : std::get<std::vector<double>>(column.cells)) {
+    const auto text = fmt::format("{:.9g}", value);
+    std::from_chars(text.data(), text.data() + text.size(), value);
+  }
 }
 
 }  // namespace
@@ -59,6 +68,7 @@ void write_torsion(const std::filesystem::path& directory, const kinetics::LoadH
     cycle.push_back(series(middle.plane.segment + ".torsional_stress", "Pa", middle.torsion_Pa));
     begin = end;
   }
+  for (auto& column : cycle) round_to_digits(column);
   write_csv(directory / "torsion_cycle.csv", cycle);
 }
 

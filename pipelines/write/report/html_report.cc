@@ -370,7 +370,7 @@ std::string html_report(const std::filesystem::path& directory, const std::files
 
 void write_html_report(const std::filesystem::path& directory, const std::filesystem::path& accuracy,
                        const LivingPage& living) {
-  if (!living.empty()) write_text_file(directory / living_data_name, living_elements(living));
+  if (!living.empty()) write_text_file(directory / living_data_name, living_file(living));
   write_text_file(directory / "report.html", report_of(directory, accuracy, living));
 }
 

@@ -73,10 +73,10 @@ void expect_same(const nlohmann::json& one, const nlohmann::json& two) {
 }
 
 /// What a field may differ by, as a share of its largest value: single precision, or one step of what is
-/// rounded: shares to 1/8192, tensors and displacements to 2^-16 of the largest value.
+/// rounded: shares to 1/1024, tensors and displacements to 2^-12 of the largest value.
 double step_of(const std::string& field) {
-  if (field == "effect share") return 2.0 / 8192;
-  return field.rfind("von Mises", 0) == 0 ? 1.2e-7 : 1.0 / 65536;
+  if (field == "effect share") return 2.0 / 1024;
+  return field.rfind("von Mises", 0) == 0 ? 1.2e-7 : 1.0 / 4096;
 }
 
 }  // namespace

@@ -48,6 +48,15 @@ void expect_equal(const std::vector<double>& read, const Eigen::ArrayXd& written
   for (std::size_t i = 0; i < read.size(); ++i) EXPECT_EQ(read[i], written(static_cast<Eigen::Index>(i)));
 }
 
+/// Shares of effects are floats of 32 bits, but where another series has the same values.
+void expect_equal_singles(const std::vector<double>& read, const Eigen::ArrayXd& written) {
+  ASSERT_EQ(read.size(), static_cast<std::size_t>(written.size()));
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    const double value = written(static_cast<Eigen::Index>(i));
+    EXPECT_TRUE(read[i] == value || read[i] == double(float(value))) << read[i] << " of " << value;
+  }
+}
+
 TEST(LoadFiles, Hdf5HoldsEverySeriesWithItsUnit) {
   const Directory at;
   const auto loads = example();
@@ -66,8 +75,9 @@ TEST(LoadFiles, Hdf5HoldsEverySeriesWithItsUnit) {
     expect_equal(in.numbers("/resultants/" + resultant.role + "/fy"), resultant.total.row(1));
     expect_equal(in.numbers("/resultants/" + resultant.role + "/torque"), resultant.total.row(2));
     for (const auto& part : resultant.contributions)
-      expect_equal(in.numbers("/effects/" + loads.effects[part.effect] + "/" + resultant.role + "/torque"),
-                   part.load.row(2));
+      expect_equal_singles(
+          in.numbers("/effects/" + loads.effects[part.effect] + "/" + resultant.role + "/torque"),
+          part.load.row(2));
   }
   EXPECT_EQ(in.text_attribute("/resultants/eccentric/torque", "unit"), "N m");
   EXPECT_EQ(in.text_attribute("/resultants/eccentric/fy", "unit"), "N");
@@ -75,7 +85,9 @@ TEST(LoadFiles, Hdf5HoldsEverySeriesWithItsUnit) {
   EXPECT_TRUE(in.has("/channels/shaft"));
   EXPECT_EQ(in.text_attribute("/channels/shaft/pulley.mz", "unit"), "N m");
   expect_equal(in.numbers("/channels/shaft/pulley.mz"), channels.values.row(1));
-  expect_equal(in.numbers("/effects/gravity_shaft/shaft/main_bearing_1.fx"), channels.by_effect[1].row(0));
+  const auto share = in.numbers("/effects/gravity_shaft/shaft/main_bearing_1.fx");
+  expect_equal_singles(share, channels.by_effect[1].row(0));
+  EXPECT_NE(share[1], channels.by_effect[1](0, 1)) << "all digits";
   EXPECT_EQ(in.texts("/effect_names"), loads.effects);
   EXPECT_EQ(in.texts("/warnings"), loads.warnings);
   EXPECT_EQ(in.text_attribute("/", "convention"), "newton");
@@ -95,7 +107,19 @@ TEST(LoadFiles, BodiesKeepTheirChannelsApart) {
   EXPECT_EQ(in.names("/channels"), (std::vector<std::string>{"shaft", "chamber"}));
   expect_equal(in.numbers("/channels/shaft/pulley.mz"), shaft.values.row(1));
   expect_equal(in.numbers("/channels/chamber/pulley.mz"), 2 * shaft.values.row(1));
-  expect_equal(in.numbers("/effects/gravity/chamber/pulley.mz"), 2 * shaft.by_effect[0].row(1));
+  expect_equal_singles(in.numbers("/effects/gravity/chamber/pulley.mz"), 2 * shaft.by_effect[0].row(1));
+}
+
+// Turns red: infinite or lost shares, where 32 bits do not reach.
+TEST(LoadFiles, SharesBeyondFloatsKeepAllDigits) {
+  for (const double size : {1e45, 1e-45}) {
+    const Directory at;
+    auto channels = example_channels();
+    for (auto& part : channels.by_effect) part *= size;
+    write_loads_h5(at / "loads.h5", example(), {&channels});
+    expect_equal(Hdf5Reader(at / "loads.h5").numbers("/effects/gravity/shaft/pulley.mz"),
+                 channels.by_effect[0].row(1));
+  }
 }
 
 TEST(LoadFiles, TheLoadStageAloneHasNoChannels) {

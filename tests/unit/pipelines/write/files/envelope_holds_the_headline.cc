@@ -70,8 +70,8 @@ double moved_m(double z, int d) {
   return 1e-6 * (1 + z + 2 * d);
 }
 
-/// Tensors and displacements are rounded to 2^-16 of the largest value or less.
-constexpr double steps = 1.0 / 65536;
+/// Tensors and displacements are rounded to 2^-12 of the largest value or less.
+constexpr double steps = 1.0 / 4096;
 
 /// A bar of four cells along z with a stress that grows towards z = 0, where it is not converged, at two
 /// instants; a weld toe at the middle has more than the peak.
