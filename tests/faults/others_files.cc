@@ -6,6 +6,7 @@
 #include <xxhash.h>
 
 #include <chrono>
+#include <cstdio>
 #include <thread>
 
 #include "tests/faults/disturbed_runs.h"

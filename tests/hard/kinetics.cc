@@ -2,6 +2,7 @@
 // in long double, closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinetics/planetary_effects/segment.h"

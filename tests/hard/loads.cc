@@ -2,6 +2,7 @@
 // that answers are compared bit by bit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipelines/superpose/envelope/superposition.h"

@@ -1,6 +1,7 @@
 // Tables 1 to 7 of the root peeler's paper as `millstress torsion` gives them: every printed digit of Tables
 // 4 and 7, and the reduced chains that they come from. What the errata say of consistent mechanics, by the
 // same command.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/cases/program/program.h"

@@ -1,6 +1,7 @@
 // The vibratory mill's paper, equation by equation, as `millstress loads` puts them out: against the formulas
 // written in the paper's own angles, phi and delta (the program has chi), and an independent program's
 // values. Then what mechanics that closes has in their place, against its derivatives and against the forces.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/papers/paper_scenes.h"

@@ -1,5 +1,6 @@
 #include "fem/models/axisymmetric/harmonic_loads.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 

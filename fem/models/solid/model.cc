@@ -1,5 +1,6 @@
 #include "fem/models/solid/model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <future>
 #include <optional>

@@ -11,6 +11,8 @@
 #include <vtkTypeInt32Array.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <cstdint>
+
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/disk/open_directory.h"
 #include "pipelines/base/files/atomic_file.h"

@@ -1,5 +1,6 @@
 #include <hdf5.h>
 
+#include <algorithm>
 #include <regex>
 
 #include "tests/cases/program/program.h"

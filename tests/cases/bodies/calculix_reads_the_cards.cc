@@ -1,4 +1,5 @@
 /// The exported cards, read by CalculiX: what it applies is what the load stage computed.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/cases/program/program.h"

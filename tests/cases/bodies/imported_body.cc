@@ -2,6 +2,7 @@
 // and a keyed shaft.
 #include <gmsh.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/cases/program/program.h"

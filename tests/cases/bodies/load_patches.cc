@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "tests/cases/program/program.h"
 #include "tests/cases/program/stepped_shaft.h"
 

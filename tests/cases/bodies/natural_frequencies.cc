@@ -1,5 +1,6 @@
 // Natural frequencies in a run: those of a bar between two bearings, and what they say of its loads.
 #include <cmath>
+#include <cstdio>
 
 #include "tests/cases/program/program.h"
 #include "tests/cases/program/small_shaft.h"

@@ -1,5 +1,6 @@
 // The five lines of Python in pipelines/command/commands/README.md, word by word: what they recombine from
 // the files of a run is what `millstress history` writes.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/cases/program/small_shaft.h"

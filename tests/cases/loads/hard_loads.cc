@@ -1,5 +1,6 @@
 // A small shaft under loads of a table: none, and larger or smaller than their squares can be; lengths of
 // millimetres and kilometres.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/cases/program/program.h"

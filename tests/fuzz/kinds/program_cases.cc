@@ -1,6 +1,8 @@
 /// The whole program as a user starts it: exit codes, messages, and what it leaves.
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 #include "pipelines/write/files/manifest.h"
 #include "tests/fuzz/child.h"
 #include "tests/fuzz/kinds/results_cases.h"

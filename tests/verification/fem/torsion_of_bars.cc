@@ -4,6 +4,7 @@
 // Saint-Venant's dies out along the bar; figures are taken near z = 0.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/verification/fem/bodies/block_mesh.h"

@@ -2,6 +2,7 @@
 // more: wrong signs, arms, lost effects and a belt that pulls along the wrong line all leave something over.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/unit/kinetics/planetary/planetary_machines.h"

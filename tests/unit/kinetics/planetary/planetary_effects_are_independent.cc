@@ -1,6 +1,7 @@
 // Effects that are off are not evaluated; those that are on keep their own share, and shares add up.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 

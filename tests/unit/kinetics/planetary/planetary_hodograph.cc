@@ -1,6 +1,7 @@
 // The closed form of the axle's load against the history, which knows nothing of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/unit/kinetics/planetary/planetary_machines.h"

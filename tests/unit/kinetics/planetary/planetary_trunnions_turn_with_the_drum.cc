@@ -1,6 +1,7 @@
 // Loads in axes that turn with the drum: what is constant on the carrier reverses fully on a trunnion.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 

@@ -1,6 +1,7 @@
 // Laws that every train obeys: 1000 trees of shafts, belts and gears, fixed seed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 

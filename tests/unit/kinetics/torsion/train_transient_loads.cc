@@ -1,6 +1,7 @@
 // Loads over a transient: closed forms of a torque that is switched on, superposition, equilibrium.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinetics/values/machine_refused.h"

@@ -3,6 +3,7 @@
 // force that is left over.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinetics/values/load_history.h"

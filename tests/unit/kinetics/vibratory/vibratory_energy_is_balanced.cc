@@ -2,6 +2,7 @@
 // statics, the powers from forces and velocities: a wrong torque, velocity or pitch rate breaks the balance.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/unit/kinetics/vibratory/machines.h"

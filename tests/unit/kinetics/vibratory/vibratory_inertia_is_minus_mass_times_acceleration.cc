@@ -2,6 +2,7 @@
 // that the terms with phi'' and omega_r' count too.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 

@@ -1,6 +1,7 @@
 /// The chamber's mesh: watertight, boundary nodes on their surfaces, groups that mean what they say.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdlib>
+#include <limits>
 #include <string>
 
 #include "fem/base/common/blas_kernels.h"

@@ -3,6 +3,7 @@
 // cancel.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fem/base/values/constants.h"

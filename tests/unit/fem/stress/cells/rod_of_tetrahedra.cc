@@ -1,6 +1,7 @@
 // Curved tetrahedra from the mesher to the stress: a round rod with Saint-Venant's tractions on its ends.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fem/base/values/constants.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Sparse>
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 

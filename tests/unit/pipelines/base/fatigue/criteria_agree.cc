@@ -11,6 +11,7 @@
 /// amplitude of one instant instead of the range's half.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipelines/base/fatigue/critical_plane.h"

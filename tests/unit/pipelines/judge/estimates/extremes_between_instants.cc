@@ -2,6 +2,7 @@
 // then by golden sections around the largest.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>

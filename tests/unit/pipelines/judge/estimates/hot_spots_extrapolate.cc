@@ -1,6 +1,7 @@
 /// Hot-spot stress of fields that can be written down.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipelines/judge/estimates/hot_spots.h"

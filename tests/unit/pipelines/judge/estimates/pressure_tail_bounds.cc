@@ -2,6 +2,7 @@
 /// whose stress by each harmonic is known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 

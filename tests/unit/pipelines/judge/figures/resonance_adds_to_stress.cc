@@ -1,6 +1,7 @@
 /// What resonance adds to a stress computed without it: closed forms of one and two harmonics.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipelines/judge/figures/vibration.h"

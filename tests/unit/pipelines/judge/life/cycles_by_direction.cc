@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <random>
 
 #include "pipelines/judge/life/damage_direction.h"

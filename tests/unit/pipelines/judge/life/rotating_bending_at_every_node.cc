@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "pipelines/base/common/stage_clock.h"
 #include "pipelines/judge/analysis/governing_stress.h"

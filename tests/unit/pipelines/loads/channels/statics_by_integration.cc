@@ -1,6 +1,7 @@
 /// Internal resultants of one unit of every load against sums over small pieces of its traction.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 

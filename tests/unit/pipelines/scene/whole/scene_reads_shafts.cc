@@ -1,6 +1,7 @@
 /// Drum, stub axle, train shaft and table body of a scene: values in SI, defaults, masses left to the mesh.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/unit/pipelines/examples/edited_scene.h"

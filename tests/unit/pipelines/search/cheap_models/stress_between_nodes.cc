@@ -2,6 +2,7 @@
 // turned or divided otherwise and have the same stress.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipelines/search/cheap_models/circle_patch.h"

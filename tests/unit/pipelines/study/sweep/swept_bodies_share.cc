@@ -1,6 +1,7 @@
 /// What points of a sweep may share of a body: never a mesh that differs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
 
 #include "pipelines/loads/stage/same_body.h"

@@ -2,6 +2,7 @@
 /// alone, an interpolation that forgets an order, cycles at instants, jumps drawn as polynomials.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 

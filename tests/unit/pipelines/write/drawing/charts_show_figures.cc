@@ -4,6 +4,7 @@
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>

@@ -1,6 +1,7 @@
 /// What a living page is made of, against the sums that it stands for.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
