@@ -5,7 +5,7 @@
 cmake_policy(VERSION 3.25)
 set(fem_public axisymmetric_responses beam_responses blas_kernels beam_shaft body body_nodes cell_shares cell_stress_at_node constants
     cost_constants cost_prediction deadline errors fillet_factors memory meridian_body model natural_mode
-    near_loads nodal_loads plated_tube ranks region_volume solver_choice stress_goal submodel surface_stress tetrahedra_error
+    near_loads nodal_loads plated_tube ranks region_volume rotor solver_choice stress_goal submodel surface_stress tetrahedra_error
     unit_load unit_responses vtk_order)
 set(faults "")
 

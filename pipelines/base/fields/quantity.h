@@ -64,6 +64,7 @@ inline constexpr Quantity per_hour_by_name{Shape::shares, "", "1/h", 1, "{:.3g}"
 inline constexpr Quantity force{Shape::number, "_N", "N", 1, "{:.5g}"};
 inline constexpr Quantity frequency{Shape::number, "", "Hz", 1, "{:.5g}"};
 inline constexpr Quantity turning_frequency{Shape::number, "_rad_s", "Hz", 2 * pi, "{:.6g}"};
+inline constexpr Quantity turning_speed{Shape::number, "_rad_s", "rpm", pi / 30, "{:.5g}"};
 inline constexpr Quantity angular_speed{Shape::number, "_rad_s", "rad/s", 1, "{:.5g}"};
 inline constexpr Quantity torque{Shape::number, "_Nm", "N m", 1, "{:.5g}"};
 

@@ -43,7 +43,12 @@ std::string schema_of_shipped() {
     const auto tree = read_scene_tree(file);
     const auto scene = read_scene(file, tree, {});
     std::vector<std::string> settings;  // that have the reader ask for what it else only knows
-    for (const auto& body : scene.bodies) settings.push_back(body.name + ".natural_frequencies=3");
+    for (const auto& body : scene.bodies) {
+      settings.push_back(body.name + ".natural_frequencies=3");
+      if (body.name == "shaft")
+        for (const char* key : {"shaft.critical_speeds=3", "shaft.bearing_stiffness=1e8"})
+          settings.emplace_back(key);
+    }
     forms.push_back(read_scene(file, tree, settings).key_forms);
     if (std::holds_alternative<kinetics::LoadTable>(scene.machine) && !scene.bodies.empty())
       forms.push_back(read_scene(file, with_other_body_name(tree), {}).key_forms);

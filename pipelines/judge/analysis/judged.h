@@ -11,6 +11,7 @@
 #include "pipelines/judge/estimates/hot_spots.h"
 #include "pipelines/judge/estimates/place_stress.h"
 #include "pipelines/judge/estimates/search_record.h"
+#include "pipelines/judge/figures/critical_speeds.h"
 #include "pipelines/judge/figures/diagrams.h"
 #include "pipelines/judge/figures/vibration.h"
 #include "pipelines/judge/figures/zone_causes.h"
@@ -59,6 +60,7 @@ struct Judged : Superposed {
   std::vector<PlaceStress> place_stresses;  ///< what is known of every place that may govern, with its error
   Search search;                       ///< how the mesh was found, if a tolerance or time limit asked for it
   std::optional<Vibration> vibration;  ///< where the scene asks for natural frequencies
+  std::optional<CriticalSpeeds> critical_speeds;  ///< where the scene asks for them
   std::shared_ptr<const BodyFatigue> fatigue;     ///< where the scene asks for it
   std::shared_ptr<const StartUpStress> start_up;  ///< where the scene asks for a start
   std::optional<DroppedBounds> dropped;           ///< where effects = "auto" has dropped any

@@ -45,19 +45,6 @@ fem::LoadSurface surface_of(const meshes::Port& port) {
   return surface;
 }
 
-/// Added masses as discs across z: their inertia about x and y is half of the polar one.
-std::vector<fem::AttachedMass> attached_to(const BodyScene& scene, const meshes::BodyMesh& mesh) {
-  std::vector<fem::AttachedMass> result;
-  for (const auto& added : scene.added_masses) {
-    const double polar = added.polar_inertia_kg_m2;
-    result.push_back({surface_of(find(mesh.ports, added.port)),
-                      added.mass_kg,
-                      {added.centre_m[0], added.centre_m[1], 0},
-                      {polar / 2, polar / 2, polar}});
-  }
-  return result;
-}
-
 double amplification_at(double frequency_Hz, double natural_Hz) {
   if (frequency_Hz == 0) return 1;
   const double ratio = frequency_Hz / natural_Hz, rest = std::abs(1 - ratio * ratio);
@@ -210,6 +197,18 @@ DynamicAmplification dynamic_amplification(const Eigen::ArrayXXd& stress_Pa, int
       .amplification(Eigen::Matrix<double, 6, 6>::Identity(), peak_Pa > 0 ? 1 : 0, natural);
 }
 
+std::vector<fem::AttachedMass> attached_to(const BodyScene& scene, const meshes::BodyMesh& mesh) {
+  std::vector<fem::AttachedMass> result;
+  for (const auto& added : scene.added_masses) {
+    const double polar = added.polar_inertia_kg_m2;
+    result.push_back({surface_of(find(mesh.ports, added.port)),
+                      added.mass_kg,
+                      {added.centre_m[0], added.centre_m[1], 0},
+                      {polar / 2, polar / 2, polar}});
+  }
+  return result;
+}
+
 fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed) {
   fem::Body body = meshed.body;
   body.elastic_supports.clear();
@@ -221,10 +220,25 @@ fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed) {
       continue;
     }
     const double size_m = port.radius_m > 0 ? 2 * port.radius_m : std::cbrt(meshed.masses.volume_m3);
-    const double across_N_m = rigid * scene.material.youngs_modulus_Pa * size_m;
+    const double across_N_m = scene.bearing_stiffness_N_m.empty()
+                                  ? rigid * scene.material.youngs_modulus_Pa * size_m
+                                  : scene.bearing_stiffness_N_m[body.elastic_supports.size()];
     body.elastic_supports.push_back({surface_of(port), {across_N_m, across_N_m, 0}});
   }
   return body;
+}
+
+std::string held_text(const BodyScene& body) {
+  const BodyReader& reader = reader_of(body);
+  const auto ports = reader.supporting_ports(body);
+  if (ports.empty()) return "free";
+  if (reader.is_clamped(body)) return "held at " + joined(ports);
+  if (body.bearing_stiffness_N_m.empty()) return "pinned at " + joined(ports);
+  std::string text = "pinned at ";
+  for (std::size_t i = 0; i < ports.size(); ++i)
+    text += fmt::format("{}{} with {:.4g} N/um", i > 0 ? ", " : "", ports[i],
+                        body.bearing_stiffness_N_m[i] / 1e6);
+  return text;
 }
 
 Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody& meshed,
@@ -235,10 +249,7 @@ Vibration vibration(const Scene& scene, const BodyScene& body, const MeshedBody&
   for (const auto& mode : fem::Model(held, ranks_of_a_body())
                               .natural_frequencies(body.natural_frequencies, attached_to(body, meshed.mesh)))
     result.natural_frequencies.push_back({mode.frequency_Hz, mode.error * mode.frequency_Hz});
-  const BodyReader& reader = reader_of(body);
-  const auto ports = reader.supporting_ports(body);
-  result.held =
-      ports.empty() ? "free" : (reader.is_clamped(body) ? "held at " : "pinned at ") + joined(ports);
+  result.held = held_text(body);
   const double period_s = (loads.time_s[1] - loads.time_s[0]) * scene.sampling.instants_per_turn;
   std::vector<bool> across;
   for (const auto& channel : channels.channels) across.push_back(is_across(channel.name));

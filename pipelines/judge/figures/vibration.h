@@ -2,9 +2,10 @@
 /// its loads. Computed only where a scene asks for it (`natural_frequencies = 3` in the body's table).
 ///
 /// How the body is held: two bearings as pins, stiff against the mean displacement of their seats across the
-/// axis and free to tilt (a rigid frame, the usual check); a stub axle at its clamp. Turning about and moving
-/// along the axis stays free; so does a body without bearings, and a chamber, whose motion on its springs the
-/// load stage has already computed. Rotation about the axis (gyroscopic moments, spin softening) is left out.
+/// axis (a rigid frame, the usual check; or the scene's `bearing_stiffness`) and free to tilt; a stub axle at
+/// its clamp. Turning about and moving along the axis stays free; so does a body without bearings, and a
+/// chamber, whose motion on its springs the load stage has already computed. Rotation about the axis
+/// (gyroscopic moments, spin softening) is left out.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "fem/base/values/body.h"
+#include "fem/base/values/natural_mode.h"
 #include "kinetics/values/load_history.h"
 #include "pipelines/loads/channels/channels.h"
 #include "pipelines/loads/stage/body_mesh.h"
@@ -118,6 +120,12 @@ private:
 
 /// The body held as the file's comment says; elastic feet are left out.
 fem::Body held_body(const BodyScene& scene, const MeshedBody& meshed);
+
+/// The same in words: "pinned at bearing_1, bearing_2".
+std::string held_text(const BodyScene& body);
+
+/// Added masses as discs across z: their inertia about x and y is half of the polar one.
+std::vector<fem::AttachedMass> attached_to(const BodyScene& scene, const meshes::BodyMesh& mesh);
 
 /// A place at which stress may be amplified.
 struct ShakenPlace {

@@ -46,4 +46,14 @@ void enter_vibration(Judged& analysis) {
     enter(analysis.hot_spot_errors, analysis.vibration->to_hot_spot, analysis.hot_spots.front().von_mises_Pa);
 }
 
+void add_critical_speeds(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
+                         Judged& analysis, StageClock& clock) {
+  if (analysis.scene.critical_speeds <= 0) return;
+  std::optional<double> solid_Hz;
+  if (analysis.vibration) solid_Hz = analysis.vibration->natural_frequencies.front().value_Hz;
+  analysis.critical_speeds = clock.run("critical speeds", [&] {
+    return critical_speeds(scene, analysis.scene, meshed, history, analysis.loads.history, solid_Hz);
+  });
+}
+
 }  // namespace pipelines

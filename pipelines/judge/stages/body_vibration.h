@@ -14,4 +14,8 @@ void add_vibration(const Scene& scene, const MeshedBody& meshed, const kinetics:
 /// The entries of the budgets alone, of Judged::vibration; nothing without it.
 void enter_vibration(Judged& analysis);
 
+/// Critical speeds of a shaft, if it asks for them; after add_vibration, which their model is compared with.
+void add_critical_speeds(const Scene& scene, const MeshedBody& meshed, const kinetics::LoadHistory& history,
+                         Judged& analysis, StageClock& clock);
+
 }  // namespace pipelines

@@ -14,7 +14,7 @@ std::optional<Finding> judge_surface(const RunReport& report, const Judged& anal
 /// Fatigue of weld toes; none of bodies without, or where the scene has switched it off.
 std::optional<Finding> judge_welds(const RunReport& report, const Judged& analysis);
 
-/// What resonance adds to the body's stress.
+/// What resonance adds to the body's stress, or how near a shaft is to a critical speed: the worse one.
 Finding judge_resonance(const RunReport& report, const Judged& analysis);
 
 /// One finding for each bearing of the scene; one that says what is missing where bodies have bearings of

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pipelines/base/common/constants.h"
 #include "pipelines/judge/analysis/error_text.h"
 #include "pipelines/judge/analysis/governing_stress.h"
 #include "pipelines/judge/life/duty_result.h"
@@ -109,15 +110,10 @@ Finding judge_yield(const RunReport& report, const Judged& analysis) {
   return worst;
 }
 
-Finding judge_resonance(const RunReport& report, const Judged& analysis) {
+namespace {
+
+Finding judge_amplification(const RunReport& report, const Vibration& vibration) {
   Finding finding{"resonance", Judgement::ok, "", "", "", std::nullopt, std::nullopt};
-  if (!analysis.vibration) {
-    finding.judgement = Judgement::not_judged;
-    finding.figure = "natural frequencies were not asked for";
-    finding.remedy = fmt::format("natural_frequencies = 3 in [{}]", analysis.scene.name);
-    return finding;
-  }
-  const auto& vibration = *analysis.vibration;
   const double limit = report.scene.limits.dynamic_amplification;
   const double factor = 1 + std::max(vibration.to_peak.share, vibration.to_hot_spot.share);
   finding.margin = limit / factor;
@@ -136,6 +132,43 @@ Finding judge_resonance(const RunReport& report, const Judged& analysis) {
         fmt::format("another speed, or a stiffer body: harmonic {:.3g} shakes it at {:.4g} Hz",
                     vibration.amplification.highest.order, vibration.amplification.highest.frequency_Hz);
   return finding;
+}
+
+/// The nearest critical speed, as those of a drive train in torsion are weighed.
+Finding judge_critical_speed(const RunReport& report, const CriticalSpeeds& speeds) {
+  Finding finding{"resonance", Judgement::ok, "", "no load meets a whirl", "", std::nullopt, std::nullopt};
+  const auto load = governing_load(speeds);
+  if (!load) return finding;
+  const double limit = report.scene.limits.resonance_margin, margin = std::abs(load->margin);
+  const double error = load->error_rad_s / load->speed_rad_s + speeds.model_error.value_or(0);
+  finding.margin = margin / limit;
+  finding.least_margin = std::max(margin - error, 0.0) / limit;
+  finding.judgement = weigh(*finding.margin, finding.least_margin);
+  finding.figure =
+      fmt::format("{} meets the whirl at {:.4g} rpm, {:.1f} % from there; {:g} % are wanted",
+                  load_name(load->order), load->speed_rad_s * 30 / pi, 100 * margin, 100 * limit);
+  if (finding.judgement != Judgement::ok)
+    finding.remedy = "another speed, stiffness of the bearings, or diameter";
+  return finding;
+}
+
+}  // namespace
+
+Finding judge_resonance(const RunReport& report, const Judged& analysis) {
+  std::optional<Finding> worst;
+  if (analysis.vibration) worst = judge_amplification(report, *analysis.vibration);
+  if (analysis.critical_speeds) {
+    auto finding = judge_critical_speed(report, *analysis.critical_speeds);
+    if (!worst || is_worse(finding, *worst)) worst = std::move(finding);
+  }
+  if (worst) return *std::move(worst);
+  return {"resonance",
+          Judgement::not_judged,
+          "",
+          "natural frequencies were not asked for",
+          fmt::format("natural_frequencies = 3 in [{}]", analysis.scene.name),
+          std::nullopt,
+          std::nullopt};
 }
 
 }  // namespace pipelines

@@ -38,4 +38,8 @@ std::vector<double> LoadMaker::spins_Hz(const Scene& scene, const BodyScene& bod
   return {spin_Hz(scene, body, loads)};
 }
 
+int LoadMaker::turning(const Scene&, const BodyScene&) const {
+  return 0;
+}
+
 }  // namespace pipelines

@@ -78,6 +78,12 @@ public:
                                                train_options(body).inertia)) /
            (2 * pi);
   }
+  int turning(const Scene& scene, const BodyScene& body) const override {
+    return kinetics::mean_speed_rad_s(std::get<kinetics::DriveTrain>(scene.machine),
+                                      train_options(body).inertia) < 0
+               ? -1
+               : 1;
+  }
 };
 
 }  // namespace

@@ -42,6 +42,7 @@ public:
   double spin_Hz(const Scene&, const BodyScene&, const kinetics::LoadHistory& loads) const override {
     return std::abs(loads.speed_rad_s.mean()) / (2 * pi);
   }
+  int turning(const Scene&, const BodyScene&) const override { return -1; }  // as phi
 };
 
 }  // namespace

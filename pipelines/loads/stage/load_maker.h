@@ -68,6 +68,9 @@ public:
   /// The same where the scene leaves it open: all that it may be, ascending; else that one.
   virtual std::vector<double> spins_Hz(const Scene& scene, const BodyScene& body,
                                        const kinetics::LoadHistory& loads) const;
+  /// Which way the body's axes turn about z: 1 counter-clockwise, -1 clockwise, 0 where the scene leaves it
+  /// open.
+  virtual int turning(const Scene& scene, const BodyScene& body) const;
 };
 
 const LoadMaker& load_maker_of(const BodyScene& body);

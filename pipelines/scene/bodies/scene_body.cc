@@ -47,6 +47,37 @@ void read_natural_frequencies(SceneTable& table, BodyScene& body) {
     body.natural_frequencies = table.count_or("natural_frequencies", 0, most, 0, "not asked for");
 }
 
+void read_bearing_stiffness(SceneTable& table, std::size_t n_bearings, BodyScene& body) {
+  constexpr double most_N_m = 1e13;
+  if (!table.is_given("bearing_stiffness")) return;
+  auto& stiffness = body.bearing_stiffness_N_m;
+  if (table.has_list("bearing_stiffness"))
+    stiffness = table.quantities("bearing_stiffness", "N/m", positive(most_N_m), n_bearings);
+  else
+    stiffness.assign(n_bearings, table.quantity("bearing_stiffness", "N/m", positive(most_N_m)));
+  if (body.critical_speeds == 0 && body.natural_frequencies == 0)
+    table.refuse("bearing_stiffness",
+                 "nothing asks for it; add critical_speeds = 3 (or natural_frequencies = 3)");
+}
+
+/// Of shafts, whose bearings stand in space; those of a planetary mill's bodies go round with its carrier.
+void read_critical_speeds(SceneTable& table, const BodyReader& kind, BodyScene& body) {
+  constexpr int most = 10;  // in each direction; no load of a mill reaches the tenth
+  if (body.name != "shaft") return;
+  if (table.is_given("critical_speeds"))
+    body.critical_speeds = table.count_or("critical_speeds", 0, most, 0, "not asked for");
+  constexpr std::size_t n_bearings = 2;
+  const bool has_bearings = !kind.is_clamped(body) && kind.supporting_ports(body).size() == n_bearings;
+  for (const char* key : {"critical_speeds", "bearing_stiffness"})
+    if (table.has(key) && !has_bearings)
+      table.refuse(key, "the shaft has no two bearings; name their ports in bearings, without a clamp");
+  if (body.critical_speeds > 0 && body.shaft() == nullptr)
+    table.refuse("critical_speeds",
+                 "needs the segments of a contour, and the shaft comes from a file; "
+                 "natural_frequencies has those of a file at rest");
+  read_bearing_stiffness(table, n_bearings, body);
+}
+
 }  // namespace
 
 BodyScene read_body(SceneTable& table, const BodyReader& kind, const Scene& scene, SceneFindings& findings) {
@@ -65,6 +96,7 @@ BodyScene read_body(SceneTable& table, const BodyReader& kind, const Scene& scen
   const auto strength = read_material(table, body, findings);
   read_solver(table, body);
   read_natural_frequencies(table, body);
+  read_critical_speeds(table, kind, body);
   read_fatigue(table, strength, bool(scene.run_up), body, findings);
   if (body.fatigue && !body.fatigue->wanted_life_s) body.fatigue->wanted_life_s = scene.limits.wanted_life_s;
   table.finish();

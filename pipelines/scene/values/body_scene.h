@@ -72,6 +72,9 @@ struct BodyScene {
   /// Why fatigue is not judged, with the two lines that add what is missing; empty if judged or switched off.
   std::string fatigue_missing;
   int natural_frequencies = 0;  ///< how many to compute and compare with the loads; 0: none
+  int critical_speeds = 0;      ///< how many of a shaft to compute in each direction of whirl; 0: none
+  /// Stiffness of its bearings across the axis, in the order of BodyReader::supporting_ports; empty: rigid.
+  std::vector<double> bearing_stiffness_N_m;
   std::string difference_port;  ///< carries what the load stage's masses and the mesh's differ by
 
   /// Places where a search found that stress grows without bound: kept out of the peak like sharp edges.

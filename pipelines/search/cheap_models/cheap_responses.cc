@@ -8,6 +8,7 @@
 #include "fem/models/beam/beam_responses.h"
 #include "fem/models/beam/near_loads.h"
 #include "pipelines/base/common/constants.h"
+#include "pipelines/judge/figures/critical_speeds.h"
 #include "pipelines/search/cheap_models/axisymmetric_body.h"
 #include "pipelines/search/cheap_models/fitted.h"
 
@@ -32,10 +33,7 @@ std::optional<fem::BeamShaft> beam_shaft(const BodyScene& body, const meshes::Bo
   const auto& shaft = shape->geometry;
   fem::BeamShaft beam;
   beam.material = body.material;
-  for (const auto& s : shaft.segments)
-    beam.segments.push_back({s.begin_m, s.end_m, s.diameter_m / 2, s.bore_m / 2,
-                             s.eccentricity_m * std::cos(s.eccentricity_angle_rad),
-                             s.eccentricity_m * std::sin(s.eccentricity_angle_rad)});
+  beam.segments = beam_segments(shaft);
   std::size_t torus = 0;  // one per fillet that has a step, in the order of the junctions
   for (std::size_t i = 0; i + 1 < shaft.segments.size(); ++i)
     if (shaft.fillets_m[i] > 0 && shaft.segments[i].diameter_m != shaft.segments[i + 1].diameter_m)

@@ -21,7 +21,9 @@ std::string warning_of_left_out(const std::string& body, const std::string& what
 std::vector<std::string> add_frequencies(const Scene& scene, const MeshedBody& meshed,
                                          const kinetics::LoadHistory& loads, double seconds, Judged& analysis,
                                          StageClock& clock) {
-  if (!in_time(seconds, [&] { add_vibration(scene, meshed, loads, analysis, clock); }))
+  const bool is_whole = in_time(seconds, [&] { add_vibration(scene, meshed, loads, analysis, clock); });
+  add_critical_speeds(scene, meshed, loads, analysis, clock);
+  if (!is_whole)
     return {warning_of_left_out(analysis.scene.name, "natural frequencies",
                                 "what resonance adds to the stress is not known")};
   if (!analysis.vibration) return {};

@@ -8,7 +8,7 @@
 
 namespace pipelines {
 
-/// Natural frequencies, where the body asks for them.
+/// Natural frequencies and critical speeds, where the body asks for them.
 /// @param seconds  that they may take; infinite: no limit
 /// @return warnings; one of them says so if they are left out
 std::vector<std::string> add_frequencies(const Scene& scene, const MeshedBody& meshed,

@@ -32,6 +32,7 @@ Judged BodyModel::again(Judged& before) {
   after.search = std::move(before.search);
   after.vibration = std::move(before.vibration);
   enter_vibration(after);
+  after.critical_speeds = std::move(before.critical_speeds);
   take_torsion_by_harmonics(before, after);
   take_place_errors(after, before.place_stresses, "as found by the body's search");
   return after;

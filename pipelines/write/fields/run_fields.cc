@@ -44,6 +44,33 @@ FieldTable<NaturalFrequency> natural_frequency_fields() {
   });
 }
 
+FieldTable<CriticalSpeed> critical_speed_fields() {
+  using Field = FieldOf<CriticalSpeed>;
+  const auto share = [](const CriticalSpeed& s) {
+    return s.share > 0 ? summary::number(s.share) : summary::Json();
+  };
+  return without_csv(FieldTable<CriticalSpeed>{
+      Field("order", quantities::ratio,
+            "turns of the load in space per turn of the shaft; negative: backward", "order",
+            &CriticalSpeed::order)
+          .digits("{:.4g}"),
+      {"mode", quantities::count, "from the slowest that this order meets", "mode",
+       [](const auto& s) { return s.mode; }},
+      {"speed", quantities::turning_speed, "critical speed of the shaft", "critical speed",
+       &CriticalSpeed::speed_rad_s},
+      Field("error", quantities::turning_speed, "by which it may be lower, for want of shorter elements",
+            "lower by at most", &CriticalSpeed::error_rad_s)
+          .digits("{:.2g}"),
+      {"margin", quantities::percent, "by which the operating speed is above it, over it", "margin",
+       &CriticalSpeed::margin},
+      {"whirl", quantities::turning_frequency, "frequency of that whirl at the operating speed", "whirl now",
+       &CriticalSpeed::whirl_rad_s},
+      Field("share", quantities::percent, "of the load, of the largest force on the shaft", "of the forces",
+            share)
+          .optional(),
+  });
+}
+
 FieldTable<StageCost> stage_fields() {
   using Field = FieldOf<StageCost>;
   return without_csv(FieldTable<StageCost>{

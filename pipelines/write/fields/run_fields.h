@@ -5,6 +5,7 @@
 #include "pipelines/base/fields/field.h"
 #include "pipelines/base/fields/field_outputs.h"
 #include "pipelines/judge/estimates/search_record.h"
+#include "pipelines/judge/figures/critical_speeds.h"
 #include "pipelines/judge/figures/vibration.h"
 
 namespace pipelines {
@@ -14,6 +15,9 @@ FieldTable<SearchStep> search_step_fields();
 
 /// bodies.<body>.natural_frequencies.
 FieldTable<NaturalFrequency> natural_frequency_fields();
+
+/// bodies.<body>.critical_speeds: modes, loads.
+FieldTable<CriticalSpeed> critical_speed_fields();
 
 /// timing.<stage>.
 FieldTable<StageCost> stage_fields();

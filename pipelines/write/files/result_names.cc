@@ -19,7 +19,7 @@ const std::string page_name = "report.html", torsion_folder = "torsion";
 /// A result in a body's folder.
 bool is_body_file(const std::string& name) {
   static const std::regex given(
-      R"(mesh\.msh|unit_responses\.h5|(zones|zone_tree|hot_spots|fatigue|weld_fatigue|diagrams|torsion|torsion_cycle|element_torques|start_up)\.csv|)"
+      R"(mesh\.msh|unit_responses\.h5|(zones|zone_tree|hot_spots|fatigue|weld_fatigue|diagrams|torsion|torsion_cycle|element_torques|start_up|campbell)\.csv|campbell\.(png|svg)|)"
       R"(envelope(\.vtu|\.pvtu|\.png|_\d+\.vtu)|cycle\.pvd|cycle_\d+\.vtu)");
   return std::regex_match(name, given);
 }

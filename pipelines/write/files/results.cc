@@ -3,6 +3,7 @@
 #include "meshes/gmsh/msh_writer.h"
 #include "pipelines/base/common/several_ranks.h"
 #include "pipelines/base/files/atomic_file.h"
+#include "pipelines/base/files/csv.h"
 #include "pipelines/write/fields/zone_fields.h"
 #include "pipelines/write/files/envelope_files.h"
 #include "pipelines/write/parts/fatigue_report.h"
@@ -32,6 +33,19 @@ std::vector<ZonePart> zone_tree(const Zones& zones) {
   return rows;
 }
 
+/// Whirl frequencies over the speed of the shaft: as many of each mode as there are at all speeds.
+void write_campbell(const path& file, const CriticalSpeeds& speeds) {
+  std::vector<CsvColumn> columns{{"speed", "rad/s", speeds.campbell_rad_s}};
+  for (const auto& [name, list] : {std::pair("forward", &fem::WhirlFrequencies::forward_rad_s),
+                                   {"backward", &fem::WhirlFrequencies::backward_rad_s}})
+    for (std::size_t mode = 0; mode < (speeds.campbell_whirl.front().*list).size(); ++mode) {
+      std::vector<double> whirl_rad_s;
+      for (const auto& at_speed : speeds.campbell_whirl) whirl_rad_s.push_back((at_speed.*list)[mode]);
+      columns.push_back({name + (" " + std::to_string(mode + 1)), "rad/s", whirl_rad_s});
+    }
+  write_csv(file, columns);
+}
+
 }  // namespace
 
 void write_mesh(const path& file, const meshes::BodyMesh& mesh) {
@@ -54,6 +68,7 @@ void write_body_results(const path& directory, const Scene& scene, const kinetic
   if (analysis.fatigue && !analysis.fatigue->welds.empty())
     write_weld_fatigue(directory / "weld_fatigue.csv", body);
   if (analysis.fatigue) write_fatigue(directory / "fatigue.csv", body);
+  if (analysis.critical_speeds) write_campbell(directory / "campbell.csv", *analysis.critical_speeds);
   if (analysis.start_up) write_start_up(directory / "start_up.csv", analysis);
   if (!analysis.diagrams) return;
   write_element_torsion(directory / "element_torques.csv", loads, analysis);

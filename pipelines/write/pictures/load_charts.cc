@@ -221,4 +221,34 @@ std::vector<std::string> write_torsion_charts(const std::filesystem::path& direc
   return charts.files;
 }
 
+std::vector<std::string> write_whirl_chart(const std::filesystem::path& directory, const std::string& title,
+                                           const CriticalSpeeds& speeds) {
+  LineChart chart{title + ": whirl of the shaft", {"speed [rpm]", false}, {"frequency [Hz]", false}, {}};
+  double highest_Hz = 0;
+  const auto add = [&](const std::string& name, const auto& frequency_rad_s) {
+    ChartCurve curve{name, {}, {}, {}, true, false};
+    for (std::size_t i = 0; i < speeds.campbell_rad_s.size(); ++i) {
+      curve.x.push_back(speeds.campbell_rad_s[i] * rpm);
+      curve.y.push_back(frequency_rad_s(i) / (2 * pi));
+    }
+    highest_Hz = std::max(highest_Hz, curve.y.back());
+    add_or_join(chart.curves, std::move(curve));
+  };
+  for (const auto& [name, list] : {std::pair("forward", &fem::WhirlFrequencies::forward_rad_s),
+                                   {"backward", &fem::WhirlFrequencies::backward_rad_s}})
+    for (std::size_t mode = 0; mode < (speeds.campbell_whirl.front().*list).size(); ++mode)
+      add(fmt::format("{} {}", name, mode + 1),
+          [&, of = list](std::size_t i) { return (speeds.campbell_whirl[i].*of)[mode]; });
+  // Orders that would leave the picture would press the whirl to its floor.
+  const double highest_rad_s = 2 * pi * highest_Hz;
+  for (const auto& load : speeds.loads) {
+    const double order = std::abs(load.order);
+    if (order * speeds.campbell_rad_s.back() <= 1.5 * highest_rad_s)
+      add(load_name(load.order), [&](std::size_t i) { return order * speeds.campbell_rad_s[i]; });
+  }
+  Charts charts(directory);
+  charts.write(chart, "campbell");
+  return charts.files;
+}
+
 }  // namespace pipelines

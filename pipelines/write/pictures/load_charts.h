@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kinetics/values/load_history.h"
+#include "pipelines/judge/figures/critical_speeds.h"
 #include "pipelines/judge/verdict/torsion_report.h"
 
 namespace pipelines {
@@ -24,5 +25,10 @@ std::vector<std::string> write_load_charts(const std::filesystem::path& director
 /// @return, @throws  as write_load_charts
 std::vector<std::string> write_torsion_charts(const std::filesystem::path& directory, const Scene& scene,
                                               const TorsionReport& report);
+
+/// Draws campbell: whirl frequencies of a shaft over its speed, and the orders of its loads.
+/// @return, @throws  as write_load_charts
+std::vector<std::string> write_whirl_chart(const std::filesystem::path& directory, const std::string& title,
+                                           const CriticalSpeeds& speeds);
 
 }  // namespace pipelines

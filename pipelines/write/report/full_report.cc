@@ -63,6 +63,14 @@ void print_vibration(std::ostream& out, const Vibration& vibration) {
       dynamic.highest.frequency_Hz, 100 * dynamic.highest.share, dynamic.highest.amplification);
 }
 
+void print_critical_speeds(std::ostream& out, const CriticalSpeeds& speeds) {
+  const auto fields = fields_of(critical_speed_fields());
+  for (const auto& [title, list] :
+       {std::pair("whirl", &speeds.modes), {"nearest of each load", &speeds.loads}})
+    print_rows(out, title, shown_rows(fields, summary_rows(critical_speed_fields(), *list), list->size()));
+  out << fmt::format("  {}; {}\n", speeds.held, model_error_text(speeds));
+}
+
 /// What the body is judged by, first of all that it is not known well.
 void print_governing(std::ostream& out, const RunReport& report, const Judged& analysis) {
   const auto stress = governing_stress(analysis);
@@ -134,6 +142,7 @@ void print_body(std::ostream& out, const RunReport& report, const Judged& analys
   print_headlines(out, body);
   print_zones(out, body);
   if (analysis.vibration) print_vibration(out, *analysis.vibration);
+  if (analysis.critical_speeds) print_critical_speeds(out, *analysis.critical_speeds);
   print_hot_spots(out, body);
   print_fatigue(out, report, analysis);
   print_element_torsion(out, report, analysis);

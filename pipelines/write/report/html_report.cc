@@ -133,6 +133,16 @@ void add_vibration(HtmlPage& page, const Json& body) {
   page.table(shown_named_rows("mode", fields_of(natural_frequency_fields()), body.at("natural_frequencies")));
 }
 
+void add_critical_speeds(HtmlPage& page, const std::filesystem::path& folder, const Json& body) {
+  if (!body.contains("critical_speeds")) return;
+  const auto& speeds = body.at("critical_speeds");
+  page.heading(3, "Critical speeds");
+  for (const char* key : {"modes", "loads"})
+    page.table(shown_rows(fields_of(critical_speed_fields()), speeds.at(key), speeds.at(key).size()));
+  page.paragraph(speeds.at("held").get<std::string>() + "; " + speeds.at("model").get<std::string>() + ".");
+  page.picture(folder / "campbell.png", "Whirl over the speed of the shaft, and the orders of its loads");
+}
+
 /// The model, and of a solid how it was solved.
 std::string solved_by(const Json& body) {
   const auto& solver = body.at("solver");
@@ -232,6 +242,7 @@ void add_body(HtmlPage& page, const std::filesystem::path& directory, const std:
   page.folded("How the mesh was found", [&] { add_search(page, body); });
   page.folded("Shares of all effects", [&] { add_effects(page, peak); });
   add_vibration(page, body);
+  add_critical_speeds(page, directory / name, body);
   add_shaft_torsion(page, body);
   add_seats(page, body);
   add_fatigue(page, body);

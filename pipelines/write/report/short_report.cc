@@ -228,6 +228,17 @@ void print_short_vibration(std::ostream& out, const Judged& analysis) {
   out << " Hz, " << analysis.vibration->held << '\n';
 }
 
+void print_short_critical_speeds(std::ostream& out, const Judged& analysis) {
+  if (!analysis.critical_speeds) return;
+  const auto& speeds = *analysis.critical_speeds;
+  constexpr double rpm = pi / 30;
+  out << "    critical speeds";
+  for (const auto& mode : speeds.modes)
+    if (mode.order > 0) out << fmt::format("  {:.5g}", mode.speed_rad_s / rpm);
+  out << fmt::format(" rpm at {:.5g} rpm, {}; {}\n", speeds.speed_rad_s / rpm, speeds.held,
+                     model_error_text(speeds));
+}
+
 void print_short_body(std::ostream& out, const RunReport& report, const Judged& analysis) {
   print_governing_stress(out, report, analysis);
   out << "    " << model_text(analysis) << '\n';
@@ -239,6 +250,7 @@ void print_short_body(std::ostream& out, const RunReport& report, const Judged& 
   if (report.duty == nullptr) print_lives(out, analysis);
   print_weld_toes(out, report, analysis);
   print_short_vibration(out, analysis);
+  print_short_critical_speeds(out, analysis);
   print_element_torsion(out, report, analysis);
   print_start_up(out, analysis);
   print_deflections(out, analysis);

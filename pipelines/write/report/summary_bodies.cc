@@ -56,6 +56,15 @@ void add_vibration(const Vibration& vibration, Json& json) {
               {"amplification", number(dynamic.highest.amplification)}});
 }
 
+Json critical_speeds_json(const CriticalSpeeds& speeds) {
+  Json json = object({{"operating_speed", figure(speeds.speed_rad_s, "rad/s")}, {"held", speeds.held}});
+  json["model"] = model_error_text(speeds);
+  json["model_error"] = speeds.model_error ? number(*speeds.model_error) : Json();
+  json["modes"] = summary_rows(critical_speed_fields(), speeds.modes);
+  json["loads"] = summary_rows(critical_speed_fields(), speeds.loads);
+  return json;
+}
+
 Json energy_error_json(const Responded& analysis) {
   const auto errors = energy_errors(analysis.responses.energy_error, analysis.loads.history.values);
   Json json = figure(errors.over_cycle, "1");
@@ -94,6 +103,7 @@ Json body_json(const RunReport& report, const Judged& analysis) {
   json["zones"] = summary_rows(zone_fields(), body, analysis.zones.zones);
   if (!analysis.search.steps.empty()) json["search"] = search_json(analysis.search);
   if (analysis.vibration) add_vibration(*analysis.vibration, json);
+  if (analysis.critical_speeds) json["critical_speeds"] = critical_speeds_json(*analysis.critical_speeds);
   if (analysis.diagrams) {
     json["torsion"].update(torsion_json(analysis));
     if (auto elements = element_torsion_json(report, analysis); !elements.is_null())

@@ -52,6 +52,7 @@ std::vector<Table> all_tables() {
       {"`torsion.elements.<element>`", fields_of(train_element_fields())},
       {"`margins.csv`, `torsion.margins`", fields_of(margin_fields())},
       {body + "natural_frequencies`", fields_of(natural_frequency_fields())},
+      {body + "critical_speeds`: modes, loads", fields_of(critical_speed_fields())},
       {body + "search.steps`", fields_of(search_step_fields())},
       {"`timing.<stage>`", fields_of(stage_fields())},
       {"`verdict.parts.<part>.findings`", fields_of(finding_fields())},
