@@ -197,7 +197,8 @@ TEST(Sweeps, ASpringMayBeTakenAway) {
     EXPECT_FALSE(points[1].value("refused", "").empty());
     return;
   }
-  for (const auto& [name, values] : nlohmann::json::parse(outcome.out)["loads"].items())
+  const auto loads = nlohmann::json::parse(outcome.out)["loads"];
+  for (const auto& [name, values] : loads.items())
     EXPECT_EQ(figure(points[1], "loads." + name + ".max"), values["max"].get<double>()) << name;
 }
 
