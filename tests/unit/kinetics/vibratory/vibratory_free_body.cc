@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include "kinetics/values/machine_refused.h"
 #include "kinetics/vibratory_mill.h"
@@ -36,7 +37,7 @@ std::set<std::string> names(const FreeBody& body) {
   return all;
 }
 
-const kinetics::FreeBodyLoad& load_of(const FreeBody& body, const std::string& name) {
+const kinetics::FreeBodyLoad& load_of(const FreeBody& body, std::string_view name) {
   const auto load =
       std::find_if(body.loads.begin(), body.loads.end(), [&](const auto& l) { return l.name == name; });
   EXPECT_NE(load, body.loads.end()) << name;
