@@ -43,6 +43,10 @@ OptimumRequest request_of(const OptimiseCommandOptions& options) {
   if (options.minimise.empty() == options.maximise.empty())
     throw OptionError("optimise: give either --minimise FIGURE or --maximise FIGURE");
   if (options.vary.empty()) throw OptionError("--vary: nothing is varied; write --vary \"KEY = A..B UNIT\"");
+  const bool asks_for_solves =
+      !options.tolerance.empty() || !options.time_limit.empty() || !options.method.empty();
+  if (options.loads_only && asks_for_solves)
+    throw OptionError("--loads: solves nothing; leave --tolerance, --time-limit and --method out");
   OptimumRequest request;
   request.maximises = options.minimise.empty();
   request.goal = request.maximises ? options.maximise : options.minimise;
@@ -183,6 +187,9 @@ private:
     SweepRow row;
     const auto run = [&] {
       SweepRun one(options, {own});
+      if (rows_.empty() && one.has_chosen_effects())
+        std::cerr
+            << "millstress: effects = \"auto\" chooses by the point; an optimisation has all of them on\n";
       row = one.run(clock_, {}, [](const auto&, const auto&) {}).front();
     };
     if (rows_.empty())

@@ -101,8 +101,8 @@ void require_swept(const std::string& key, bool with_zones, bool with_fatigue, b
   if (is_within(key, "duty") || (dot != std::string::npos && is_within(key.substr(dot + 1), "fatigue")))
     throw OptionError(
         "--vary " + key +
-        ": no figure of this sweep depends on fatigue or operating blocks; name one that does, like --figure "
-        "bodies.shaft.fatigue.safety");
+        ": this sweep judges no fatigue and no operating blocks, so that no figure depends on this; name one "
+        "that does, like --figure bodies.shaft.fatigue.safety");
 }
 
 void tell_forecast(const SweepForecast& forecast, std::size_t n_known, const RequestedAccuracy& accuracy) {

@@ -21,12 +21,6 @@ constexpr double share_left = 0.02;
 /// An end of a range limits it where the optimum is no farther away than this share of the range.
 constexpr double share_of_range = 2e-3;
 
-std::string unit_in(const SweepRow& row, const std::string& figure) {
-  for (const auto own : row.figures)
-    if (own.name == figure) return own.unit;
-  return "";
-}
-
 const SweepRow& best_row(const Optimum& optimum) {
   return optimum.rows[optimum.best];
 }
@@ -94,7 +88,7 @@ void print_sensitivities(std::ostream& out, const OptimumRequest& request, const
     auto& cells = table.cells.emplace_back(
         1, variation.short_key() + (variation.unit.empty() ? "" : ", by 1 " + variation.unit));
     for (const auto& figure : request.figures()) {
-      const auto shown = shown_unit(unit_in(best_row(optimum), figure));
+      const auto shown = shown_unit(unit_of_figure(best_row(optimum), figure));
       const auto change = optimum.sensitivity(figure, v);
       cells.push_back(
           change ? fmt::format("{:+.3g}{}", *change / shown.one, shown.unit.empty() ? "" : " " + shown.unit)
@@ -135,7 +129,7 @@ Json bounds_json(const OptimumRequest& request, const Optimum& optimum) {
 }  // namespace
 
 std::string figure_text(const SweepRow& row, const std::string& figure) {
-  const auto shown = shown_unit(unit_in(row, figure));
+  const auto shown = shown_unit(unit_of_figure(row, figure));
   const double value = row.figure(figure) / shown.one, error = stated_error(row, figure) / shown.one;
   const std::string unit = shown.unit.empty() ? "" : " " + shown.unit;
   if (std::isnan(value)) return "-";
@@ -161,7 +155,7 @@ std::string why_not_kept(const OptimumRequest& request, const Optimum& optimum) 
   for (std::size_t b = 0; b < request.bounds.size(); ++b)
     if (lacks(request, optimum, b) > lacks(request, optimum, worst)) worst = b;
   const auto& bound = request.bounds[worst];
-  const auto shown = shown_unit(unit_in(best_row(optimum), bound.figure));
+  const auto shown = shown_unit(unit_of_figure(best_row(optimum), bound.figure));
   std::string keys;
   for (std::size_t v = 0; v < request.variations.size(); ++v)
     keys += (v == 0 ? "" : ", ") + request.variations[v].short_key() + " = " +
@@ -192,7 +186,7 @@ std::string optimum_json(const OptimumRequest& request, const Optimum& optimum) 
         summary::object({{"value", summary::number_or_none(row.figure(figure))},
                          {"error", summary::number_or_none(stated_error(row, figure))},
                          {"start", summary::number_or_none(optimum.rows.front().figure(figure))},
-                         {"unit", unit_in(row, figure)}});
+                         {"unit", unit_of_figure(row, figure)}});
     if (!optimum.is_kept) continue;
     for (std::size_t v = 0; v < request.variations.size(); ++v) {
       const auto change = optimum.sensitivity(figure, v);

@@ -20,11 +20,17 @@ std::string stripped(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") + 1 - first);
 }
 
-const SweepFigures::Item* found(const SweepRow& row, const std::string& figure,
-                                std::optional<SweepFigures::Item>& item) {
-  for (const auto own : row.figures)
-    if (own.name == figure) return &item.emplace(own);
-  return nullptr;
+/// Those that people ask for: no errors, no single places, of a load its largest value.
+std::string leading_names(const std::vector<std::string>& names) {
+  std::string list;
+  for (const auto& name : names) {
+    const bool is_largest = name.size() > 4 && name.compare(name.size() - 4, 4, ".max") == 0;
+    const bool is_detail = name.find(".error") != std::string::npos ||
+                           name.find(".places.") != std::string::npos ||
+                           (name.rfind("loads.", 0) == 0 && !is_largest);
+    if (!is_detail) list += (list.empty() ? "" : ", ") + name;
+  }
+  return list;
 }
 
 /// A number without a unit is one of a figure without.
@@ -68,19 +74,20 @@ void require_figure(const std::string& option, const std::string& figure, const 
   for (const auto own : row.figures) known.push_back(own.name);
   if (contains(known, figure)) return;
   const auto nearest = nearest_name(figure, known);
-  std::string same_group;
-  if (nearest.empty())
-    for (const auto& name : known)
-      if (name.find(".places.") == std::string::npos && name.find(".error") == std::string::npos)
-        same_group += (same_group.empty() ? "" : ", ") + name;
-  throw OptionError(option + ": a run of this scene has no figure \"" + figure + "\"; " +
-                    (nearest.empty() ? "it has " + same_group : "did you mean \"" + nearest + "\"?"));
+  throw OptionError(
+      option + ": a run of this scene has no figure \"" + figure + "\"; " +
+      (nearest.empty() ? "it has " + leading_names(known) : "did you mean \"" + nearest + "\"?"));
+}
+
+std::string unit_of_figure(const SweepRow& row, const std::string& figure) {
+  for (const auto own : row.figures)
+    if (own.name == figure) return own.unit;
+  return "";
 }
 
 double bound_in_si(const KeptBound& bound, const SweepRow& row) {
   require_figure("--keep " + bound.text, bound.figure, row);
-  std::optional<SweepFigures::Item> item;
-  const auto unit = found(row, bound.figure, item)->unit;
+  const auto unit = unit_of_figure(row, bound.figure);
   try {
     return unit.empty() ? number_alone(bound.quantity) : to_si(bound.quantity, unit);
   } catch (const UnitError& error) {

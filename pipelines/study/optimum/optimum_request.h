@@ -45,6 +45,9 @@ double bound_in_si(const KeptBound& bound, const SweepRow& row);
 /// @param option  that names it, for the message
 void require_figure(const std::string& option, const std::string& figure, const SweepRow& row);
 
+/// SI unit of a figure; empty if it has none.
+std::string unit_of_figure(const SweepRow& row, const std::string& figure);
+
 /// The error of a figure that a row states, with what no mesh lowers; 0 of figures without.
 double stated_error(const SweepRow& row, const std::string& figure);
 

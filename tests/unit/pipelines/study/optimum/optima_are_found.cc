@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "pipelines/base/common/errors.h"
+#include "pipelines/scene/reader/key_settings.h"
 #include "pipelines/study/optimum/optimum_report.h"
 #include "pipelines/study/optimum/optimum_search.h"
 #include "pipelines/study/optimum/scene_text.h"
@@ -151,11 +152,12 @@ TEST(OptimumSearch, GoesRoundRefusedPoints) {
                                                 const double a = point.numbers[0], b = point.numbers[1];
                                                 SweepRow row;
                                                 if (a < 2) row.refused = "too thin";
-                                                row.figures = {{"size", "m", std::hypot(a - 3, b - 4)}};
+                                                row.figures = {{"size", "m", std::hypot(a - 1, b - 4)}};
                                                 return row;
                                               }});
-  EXPECT_NEAR(optimum.plan.points[optimum.best].numbers[0], 3, 0.1);
-  EXPECT_NEAR(optimum.plan.points[optimum.best].numbers[1], 4, 0.1);
+  EXPECT_GE(optimum.plan.points[optimum.best].numbers[0], 2);
+  EXPECT_NEAR(optimum.plan.points[optimum.best].numbers[0], 2, 0.2);
+  EXPECT_NEAR(optimum.plan.points[optimum.best].numbers[1], 4, 0.2);
 }
 
 TEST(OptimumSearch, EndsAfterTheEvaluationsThatWereAskedFor) {
@@ -175,7 +177,7 @@ TEST(SceneTexts, ReadAsTheSameTree) {
       "}\n"
       "[machine.\"odd key\"]\nz = -1\n[empty]\n";
   const auto once = toml_text(parse_toml(text));
-  EXPECT_EQ(toml_text(parse_toml(once)), once);
+  EXPECT_EQ(texts_by_key(parse_toml(once)), texts_by_key(parse_toml(text)));
   const auto tree = parse_toml(once);
   EXPECT_EQ(tree.find("x")->value.kind, TomlNode::Kind::number);
   EXPECT_EQ(tree.find("title")->value.text, "a \"b\"");
