@@ -133,6 +133,7 @@ std::string figure_text(const SweepRow& row, const std::string& figure) {
   const double value = row.figure(figure) / shown.one, error = stated_error(row, figure) / shown.one;
   const std::string unit = shown.unit.empty() ? "" : " " + shown.unit;
   if (std::isnan(value)) return "-";
+  if (std::isinf(value)) return "endures";
   if (std::isinf(error)) return fmt::format("{:.4g} +- ?{}", value, unit);
   return error == 0 ? fmt::format("{:.4g}{}", value, unit)
                     : fmt::format("{:.4g} +- {:.2g}{}", value, error, unit);

@@ -20,7 +20,7 @@ std::string optimum_json(const OptimumRequest& request, const Optimum& optimum);
 /// Which bound no point keeps, and what can be kept nearest to it.
 std::string why_not_kept(const OptimumRequest& request, const Optimum& optimum);
 
-/// A figure with its stated error, "1.503 kg", "3.61 +- 0.08".
+/// A figure with its stated error, "1.503 kg", "3.61 +- 0.08"; an infinite life "endures".
 std::string figure_text(const SweepRow& row, const std::string& figure);
 
 }  // namespace pipelines
