@@ -56,19 +56,11 @@ OptimumRequest request_of(const OptimiseCommandOptions& options) {
   return request;
 }
 
-std::string percent_of(double share) {
-  return fmt::format("{:.6g} %", 100 * share);
-}
-
-/// The tolerance that is asked for, and a fifth of it.
-std::vector<RequestedAccuracy> accuracies_of(const OptimiseCommandOptions& options, const Scene& scene) {
-  auto asked = requested_search(options.tolerance, options.time_limit, scene.accuracy);
-  if (asked.once) return {asked};
-  if (!asked.any()) asked = {with_default(asked).tolerance, 0, false, false};  // no clock decides on the path
-  if (!(asked.tolerance > 0)) return {asked};
-  auto sharper = asked;
-  sharper.tolerance = std::max(least_tolerance, asked.tolerance / 5);
-  return {asked, sharper};
+/// What is asked for; the default's tolerance has no limit of time, so that no clock decides on the path.
+RequestedAccuracy accuracy_of(const OptimiseCommandOptions& options, const Scene& scene) {
+  const auto asked = requested_search(options.tolerance, options.time_limit, scene.accuracy);
+  if (asked.once || asked.any()) return asked;
+  return {with_default(asked).tolerance, 0, false, false};
 }
 
 /// What an optimisation is about.
@@ -77,7 +69,6 @@ struct Optimisation {
   std::vector<std::string> settings;  ///< settings of all points
   TomlNode tree;                      ///< tree of the scene as its file has it
   Scene scene;
-  std::vector<RequestedAccuracy> accuracies;  ///< by level
   bool has_tolerance_option;
   SweepOptions sweep;
   Variant variant;
@@ -93,10 +84,10 @@ struct Optimisation {
       scene.method = requested_method(options.method, scene);
       settings.push_back("method=" + options.method);
     }
-    accuracies = accuracies_of(options, scene);
     const auto figures = request.figures();
     const bool loads_only = options.loads_only || scene.bodies.empty();
     sweep = {options.scene, tree, settings, options.n_threads, loads_only, options.fresh};
+    sweep.accuracy = accuracy_of(options, scene);
     sweep.whole_runs = true;
     sweep.fatigue = std::any_of(figures.begin(), figures.end(), is_of_fatigue);
     variant = variant_of(options);
@@ -104,13 +95,6 @@ struct Optimisation {
     for (const auto& text : options.vary) variant.sweep->push_back("--vary " + text);
     for (const auto& text : options.keep) variant.sweep->push_back("--keep " + text);
     directory = own_directory(options.output, default_directory(options, "_optimum"), variant);
-  }
-
-  std::vector<std::string> tolerances() const {
-    std::vector<std::string> texts;
-    if (!sweep.loads_only && accuracies.size() > 1)
-      for (const auto& accuracy : accuracies) texts.push_back(percent_of(accuracy.tolerance));
-    return texts;
   }
 };
 
@@ -141,10 +125,9 @@ std::string journal_key_of(const Optimisation& optimisation) {
   for (const auto& input : noted_inputs()) key += input.file.string() + ' ' + input.hash + '\n';
   for (const auto& setting : optimisation.settings) key += setting + '\n';
   const auto& sweep = optimisation.sweep;
-  key += fmt::format("{} {} {}", sweep.loads_only, sweep.fatigue, sweep.n_threads);
-  for (const auto& a : optimisation.accuracies)
-    key += fmt::format(" {} {} {}", a.tolerance, a.time_limit_s, a.once);
-  return key;
+  const auto& accuracy = sweep.accuracy;
+  return key + fmt::format("{} {} {} {} {} {}", sweep.loads_only, sweep.fatigue, sweep.n_threads,
+                           accuracy.tolerance, accuracy.time_limit_s, accuracy.once);
 }
 
 /// Points that are computed one after the other, and kept for a call that goes on where this one ends. The
@@ -157,13 +140,13 @@ public:
         clock_(clock),
         is_new_(optimisation.sweep.fresh) {}
 
-  SweepRow row(const SweepPoint& point, std::size_t level) {
+  SweepRow row(const SweepPoint& point, double tolerance) {
     if (!is_new_)
       if (auto known = journal_.known({optimisation_.request.variations, {point}}).front()) {
         keep(point, *known);
         return *std::move(known);
       }
-    auto row = computed(point, level);
+    auto row = computed(point, tolerance);
     if (row.refused.empty()) {
       if (!is_new_) journal_.begin(plan_, {rows_.begin(), rows_.end()});
       is_new_ = true;
@@ -177,9 +160,9 @@ public:
 
 private:
   /// Mistakes of the scene end the first point; later ones are refused for them.
-  SweepRow computed(const SweepPoint& point, std::size_t level) {
+  SweepRow computed(const SweepPoint& point, double tolerance) {
     auto options = optimisation_.sweep;
-    options.accuracy = optimisation_.accuracies[level];
+    options.accuracy.tolerance = tolerance;
     auto own = point;
     const auto is_tolerance = [](const std::string& setting) { return setting.rfind("tolerance=", 0) == 0; };
     own.settings.erase(std::remove_if(own.settings.begin(), own.settings.end(), is_tolerance),
@@ -270,8 +253,9 @@ void optimise(const OptimiseCommandOptions& options, std::ostream& out) {
   if (!optimisation.sweep.loads_only) environment.emplace(options.n_threads);
   PointsOnPath points(optimisation, staged.directory(), clock);
   const auto optimum = find_optimum(
-      request, {starts_of(optimisation), optimisation.tolerances(),
-                [&](const SweepPoint& point, std::size_t level) { return points.row(point, level); }});
+      request,
+      {starts_of(optimisation), optimisation.sweep.loads_only ? 0 : optimisation.sweep.accuracy.tolerance,
+       [&](const SweepPoint& point, double tolerance) { return points.row(point, tolerance); }});
   const auto names = write_optimum(staged.folder(), optimisation, optimum);
   staged.publish();
   if (options.json) {

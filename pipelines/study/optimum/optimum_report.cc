@@ -144,10 +144,13 @@ void print_optimum(std::ostream& out, const OptimumRequest& request, const Optim
   print_figures(out, request, optimum);
   if (optimum.is_kept) print_sensitivities(out, request, optimum);
   const auto n_sharper = std::count(optimum.levels.begin(), optimum.levels.end(), 1);
+  const auto first_sharper =
+      std::find(optimum.levels.begin(), optimum.levels.end(), 1) - optimum.levels.begin();
   out << fmt::format("\n  {} points by {}{}{}\n", optimum.rows.size(), algorithm,
-                     n_sharper > 0 ? fmt::format(", {} of them solved to {}", n_sharper,
-                                                 optimum.plan.variations.back().values[1])
-                                   : "",
+                     n_sharper > 0
+                         ? fmt::format(", {} of them solved to {}", n_sharper,
+                                       optimum.plan.points[std::size_t(first_sharper)].values.back())
+                         : "",
                      optimum.has_converged ? "" : "; the evaluations are used up: --evaluations gives more");
 }
 

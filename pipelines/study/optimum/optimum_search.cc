@@ -1,10 +1,14 @@
 #include "pipelines/study/optimum/optimum_search.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "pipelines/base/common/errors.h"
+#include "pipelines/scene/values/requested_accuracy.h"
 #include "pipelines/study/optimum/cobyla.h"
 
 namespace pipelines {
@@ -31,16 +35,17 @@ double coordinate_of(const ValueRange& range, double number) {
   return std::clamp((number - range.first) / (range.last - range.first), 0.0, 1.0);
 }
 
+/// COBYLA ends near a bound, to either side: it is given one that is closer by this share.
+constexpr double margin_of_bounds = 1e-3;
+
 class PathSearch {
 public:
   PathSearch(const OptimumRequest& request, const OptimumSearch& given) : request_(request), given_(given) {
     result_.plan.variations = request.variations;
-    if (!given.tolerances.empty()) {
-      Variation tolerance;
-      tolerance.key = "tolerance";
-      tolerance.values = given.tolerances;
-      result_.plan.variations.push_back(tolerance);
-    }
+    if (!(given.tolerance > 0)) return;
+    Variation tolerance;
+    tolerance.key = "tolerance";
+    result_.plan.variations.push_back(tolerance);
   }
 
   Optimum run() {
@@ -50,7 +55,8 @@ public:
     result_.has_converged = minimise(start, first_step, 0);
     require_any_row();
     std::size_t level = 0;
-    if (given_.tolerances.size() > 1 && needs_sharper_solve(best_at(0))) {
+    if (given_.tolerance > 0 && needs_sharper_solve(best_at(0))) {
+      sharper_ = sharper_tolerance(result_.rows[best_at(0)]);
       const auto before = best_at(0), again = evaluate(coordinates(before), 1);
       if (!is_refused(again) && (lacking(again) > 0 || has_less_error(before, again))) {
         level = 1;
@@ -71,10 +77,32 @@ private:
                           [&](const std::vector<double>& x) { return trial_of(evaluate(x, level, true)); }};
     try {
       run_cobyla(problem);
+      close_in(level);
     } catch (const EvaluationsUsedUp&) {
       return false;
     }
     return true;
+  }
+
+  /// Goes from the best point towards one that is better and lacks least, up to where a bound is just kept.
+  void close_in(std::size_t level) {
+    constexpr int most_steps = 3;
+    for (int i = 0; i < most_steps; ++i) {
+      const auto kept = best_at(level);
+      const double left = -lacking(kept);
+      if (left < 0 || left <= 2 * margin_of_bounds) return;
+      std::optional<std::size_t> beyond;
+      for (std::size_t p = 0; p < result_.rows.size(); ++p)
+        if (result_.levels[p] == level && !is_refused(p) && goal(p) < goal(kept) &&
+            (!beyond || lacking(p) < lacking(*beyond)))
+          beyond = p;
+      if (!beyond) return;
+      const double way = (left - margin_of_bounds) / (left + lacking(*beyond));
+      auto x = coordinates(kept);
+      const auto end = coordinates(*beyond);
+      for (std::size_t v = 0; v < x.size(); ++v) x[v] += way * (end[v] - x[v]);
+      evaluate(x, level, true);
+    }
   }
 
   /// @param is_counted  towards the number that was asked for
@@ -87,7 +115,7 @@ private:
     if (known != points.end()) return std::size_t(known - points.begin());
     if (is_counted && n_counted_ >= request_.most_evaluations) throw EvaluationsUsedUp();
     n_counted_ += is_counted ? 1 : 0;
-    auto row = given_.evaluate(point, level);
+    auto row = given_.evaluate(point, tolerance_of(level));
     if (row.refused.empty() && !has_units_) take_units(row);
     points.push_back(std::move(point));
     result_.rows.push_back(std::move(row));
@@ -103,10 +131,10 @@ private:
       point.values.push_back(variation.text_of(point.numbers.back()));
       for (const auto& key : variation.keys()) point.settings.push_back(key + "=" + point.values.back());
     }
-    if (given_.tolerances.empty()) return point;
+    if (!(given_.tolerance > 0)) return point;
     point.numbers.push_back(std::numeric_limits<double>::quiet_NaN());
-    point.values.push_back(given_.tolerances[level]);
-    point.settings.push_back("tolerance=" + given_.tolerances[level]);
+    point.values.push_back(fmt::format("{:.6g} %", 100 * tolerance_of(level)));
+    point.settings.push_back("tolerance=" + point.values.back());
     return point;
   }
 
@@ -146,7 +174,8 @@ private:
       return trial;
     }
     trial.goal = goal(p);
-    for (std::size_t b = 0; b < request_.bounds.size(); ++b) trial.shortfalls.push_back(lacking(p, b));
+    for (std::size_t b = 0; b < request_.bounds.size(); ++b)
+      trial.shortfalls.push_back(lacking(p, b) + margin_of_bounds);
     return trial;
   }
 
@@ -189,6 +218,20 @@ private:
     return false;
   }
 
+  double tolerance_of(std::size_t level) const { return level == 0 ? given_.tolerance : sharper_; }
+
+  /// A fifth of the tolerance, or half of what the bodies of the bounds are known to where that is less; a
+  /// tolerance with two digits.
+  double sharper_tolerance(const SweepRow& row) const {
+    double sharper = given_.tolerance / 5;
+    for (const auto& bound : request_.bounds) {
+      const auto governing = bound.figure.substr(0, bound.figure.find('.', 7)) + ".governing";
+      const double share = row.figure(governing + ".error") / row.figure(governing);
+      if (share > 0) sharper = std::min(sharper, share / 2);
+    }
+    return std::max(least_tolerance, std::strtod(fmt::format("{:.1e}", sharper).c_str(), nullptr));
+  }
+
   bool has_less_error(std::size_t before, std::size_t after) const {
     for (const auto& bound : request_.bounds)
       if (stated_error(result_.rows[after], bound.figure) <
@@ -211,6 +254,7 @@ private:
   const OptimumSearch& given_;
   Optimum result_;
   bool has_units_ = false;
+  double sharper_ = 0;  ///< tolerance of level 1
   int n_counted_ = 0;
   double goal_scale_ = 1;
 };

@@ -1,8 +1,9 @@
 /// The search for an optimum that knows the errors of its figures.
 ///
 /// A bound holds only with the stated error of its figure. Where at the end of a search the distance to a
-/// bound is less than that error, the point is solved again at a sharper tolerance, and the search goes on
-/// from there with small steps if the error became less by that.
+/// bound is less than that error, the point is solved again at a fifth of the tolerance, or at half of what
+/// its body is known to where that is less. The search goes on from there with small steps if the error
+/// became less by that, or if the bound is not kept any more.
 #pragma once
 
 #include <functional>
@@ -16,17 +17,16 @@
 namespace pipelines {
 
 struct OptimumSearch {
-  std::vector<double> start;            ///< by variation, in its unit and range
-  std::vector<std::string> tolerances;  ///< the first one and a sharper one; none: figures have no errors
-  /// The row of a point.
-  /// @param level  index of its tolerance; 0 where there is none
-  std::function<SweepRow(const SweepPoint& point, std::size_t level)> evaluate;
+  std::vector<double> start;  ///< by variation, in its unit and range
+  double tolerance = 0;       ///< of the first points, a share; 0: none is asked for, nor a sharper one
+  /// The row of a point, solved to a tolerance.
+  std::function<SweepRow(const SweepPoint& point, double tolerance)> evaluate;
 };
 
 struct Optimum {
   SweepPlan plan;  ///< points in the order in which they were computed; the tolerance is a variation of them
   std::vector<SweepRow> rows;       ///< by point
-  std::vector<std::size_t> levels;  ///< by point
+  std::vector<std::size_t> levels;  ///< by point: 0, or 1 of those that were solved sharper
   std::vector<double> bounds_si;    ///< by bound
   std::size_t best = 0;        ///< the optimum; where no point keeps all bounds, the one that lacks least
   bool is_kept = false;        ///< the best point keeps all bounds
