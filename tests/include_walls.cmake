@@ -80,7 +80,7 @@ set(rooms_pipelines
     judge/estimates judge/figures judge/analysis judge/stages judge/life judge/texts judge/verdict
     search/cheap_models search/effect_choice search/refinement search/models search/loop
     write/drawing write/exports write/fields write/machines write/parts write/pictures write/living write/report write/files
-    study/effects study/variations study/accuracy study/sweep study/comparison
+    study/effects study/variations study/accuracy study/sweep study/optimum study/comparison
     command/front command/calculix command/options command/check command/commands command/study)
 foreach(folder fem kinetics meshes pipelines)
   set(above ${rooms_${folder}})

@@ -14,7 +14,8 @@ enum ExitCode {
   verdict_not_ok = 5
 };
 
-/// A tolerance or time limit that a run did not meet; its results are kept.
+/// A tolerance or time limit that a run did not meet, or bounds that no point of an optimisation keeps; the
+/// results are kept.
 class ToleranceNotMet : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;

@@ -163,13 +163,13 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   pipelines::ChosenCommand chosen;
   for (const auto add :
-       {pipelines::add_run_command, pipelines::add_loads_command, pipelines::add_effects_command,
-        pipelines::add_torsion_command, pipelines::add_springs_command, pipelines::add_extremes_command,
-        pipelines::add_free_body_command, pipelines::add_history_command, pipelines::add_sweep_command,
-        pipelines::add_accuracy_command, pipelines::add_ports_command, pipelines::add_calculix_command,
-        pipelines::add_report_command, pipelines::add_compare_command, pipelines::add_check_command,
-        pipelines::add_init_command, pipelines::add_materials_command, pipelines::add_manual_command,
-        pipelines::add_cache_command})
+       {pipelines::add_run_command,       pipelines::add_loads_command,    pipelines::add_effects_command,
+        pipelines::add_torsion_command,   pipelines::add_springs_command,  pipelines::add_extremes_command,
+        pipelines::add_free_body_command, pipelines::add_history_command,  pipelines::add_sweep_command,
+        pipelines::add_optimise_command,  pipelines::add_accuracy_command, pipelines::add_ports_command,
+        pipelines::add_calculix_command,  pipelines::add_report_command,   pipelines::add_compare_command,
+        pipelines::add_check_command,     pipelines::add_init_command,     pipelines::add_materials_command,
+        pipelines::add_manual_command,    pipelines::add_cache_command})
     add(app, chosen);
   refuse_forgotten_values(app);
 

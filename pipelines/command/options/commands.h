@@ -64,6 +64,10 @@ void add_history_command(CLI::App& app, ChosenCommand& chosen);
 /// results/<scene's name>_sweep.
 void add_sweep_command(CLI::App& app, ChosenCommand& chosen);
 
+/// `millstress optimise`: keys by which a figure is least or largest within bounds. The directory defaults to
+/// results/<scene's name>_optimum.
+void add_optimise_command(CLI::App& app, ChosenCommand& chosen);
+
 /// `millstress accuracy`: error against seconds on every model, from beam to solid, as table, CSV, HDF5
 /// and chart. The directory defaults to results/<scene's name>; files go into its folder accuracy.
 void add_accuracy_command(CLI::App& app, ChosenCommand& chosen);

@@ -60,7 +60,7 @@ the scene, an option or a file is wrong; the message names place, value and reme
 the mesh, the solve or an output failed
 .TP
 4
-the tolerance or the limit of time was not met
+the tolerance or the limit of time was not met, or bounds of optimise cannot be kept
 .TP
 5
 with \-\-strict: the verdict is not OK

@@ -23,7 +23,7 @@ LineChart line_chart(const std::string& title, const SweepPlan& plan, const std:
   LineChart chart;
   chart.title = title;
   const auto& variation = plan.variations[k];
-  chart.x = {with_unit(key_in_words(variation.key), variation.unit),
+  chart.x = {with_unit(key_in_words(variation.short_key()), variation.unit),
              variation.range && variation.range->is_logarithmic};
   const auto unit = shown_unit(unit_of(rows, figures.front())).unit;
   chart.y.title = figures.size() == 1 ? with_unit(figure_in_words(figures.front()), unit) : unit;
@@ -65,8 +65,8 @@ HeatMap heat_map(const std::string& title, const SweepPlan& plan, const std::vec
   const auto shown = shown_unit(unit_of(rows, figure));
   map.figure_title = with_unit(figure_in_words(figure), shown.unit);
   map.title = title + ": " + map.figure_title;
-  map.x_title = with_unit(key_in_words(along.key), along.unit);
-  map.y_title = with_unit(key_in_words(up.key), up.unit);
+  map.x_title = with_unit(key_in_words(along.short_key()), along.unit);
+  map.y_title = with_unit(key_in_words(up.short_key()), up.unit);
   const auto labels = [](const Variation& variation) {
     std::vector<std::string> texts;
     for (const double number : variation.numbers) texts.push_back(fmt::format("{:.4g}", number));

@@ -30,6 +30,7 @@
 #include "pipelines/study/sweep/sweep_files.h"
 #include "pipelines/study/sweep/sweep_journal.h"
 #include "pipelines/study/sweep/sweep_run.h"
+#include "pipelines/study/sweep/whole_run.h"
 #include "pipelines/study/variations/sweep_request.h"
 #include "pipelines/write/files/staged_results.h"
 
@@ -60,12 +61,12 @@ SweepRequest requested(const SweepCommandOptions& options, SweepRequest request)
 
 /// All that a row depends on beside its settings, once a point was read.
 std::string journal_key(const SweepCommandOptions& options, const RequestedAccuracy& accuracy, bool zones,
-                        int n_threads) {
+                        bool fatigue, int n_threads) {
   std::string key = program_fingerprint() + '\n';
   for (const auto& input : noted_inputs()) key += input.file.string() + ' ' + input.hash + '\n';
   for (const auto& setting : options.settings) key += setting + '\n';
   if (!options.method.empty()) key += "--method " + options.method + '\n';
-  return key + fmt::format("{} {} {} {} {} {} {}", options.loads_only, zones, accuracy.tolerance,
+  return key + fmt::format("{} {} {} {} {} {} {} {}", options.loads_only, zones, fatigue, accuracy.tolerance,
                            accuracy.time_limit_s, accuracy.once, accuracy.by_default, n_threads);
 }
 
@@ -76,8 +77,9 @@ bool is_within(const std::string& key, const std::string& table) {
 }
 
 /// No figure of a sweep depends on these keys: points that look alike would be no answer.
-/// @param loads_only  nothing is solved
-void require_swept(const std::string& key, bool with_zones, bool loads_only) {
+/// @param with_fatigue  fatigue and operating blocks are judged at every point
+/// @param loads_only    nothing is solved
+void require_swept(const std::string& key, bool with_zones, bool with_fatigue, bool loads_only) {
   if (is_within(key, "method") && loads_only)
     throw OptionError("--vary " + key +
                       ": no figure of loads depends on this; leave it out, or sweep a scene with a body "
@@ -95,11 +97,12 @@ void require_swept(const std::string& key, bool with_zones, bool loads_only) {
     throw OptionError("--vary " + key +
                       ": no figure depends on this without the zones of every point; add --zones");
   const auto dot = key.find('.');
+  if (with_fatigue) return;
   if (is_within(key, "duty") || (dot != std::string::npos && is_within(key.substr(dot + 1), "fatigue")))
     throw OptionError(
         "--vary " + key +
-        ": a sweep judges no fatigue and no operating blocks, so that no figure depends on this; "
-        "run the scene with --set for each value");
+        ": this sweep judges no fatigue and no operating blocks, so that no figure depends on this; name one "
+        "that does, like --figure bodies.shaft.fatigue.safety");
 }
 
 void tell_forecast(const SweepForecast& forecast, std::size_t n_known, const RequestedAccuracy& accuracy) {
@@ -194,8 +197,9 @@ bool has_points_of(const SweepPlan& plan, bool loads_only, const SweepRequest& o
 }
 
 /// The settings of all points, but for --method, which stands for `--set method`.
-std::vector<std::string> settings_of_points(const SweepCommandOptions& options) {
-  auto settings = settings_of_duty(options.settings, false);
+/// @param with_duty  settings of operating blocks are among them
+std::vector<std::string> settings_of_points(const SweepCommandOptions& options, bool with_duty) {
+  auto settings = with_duty ? options.settings : settings_of_duty(options.settings, false);
   const auto is_method = [](const std::string& setting) {
     return setting.substr(0, setting.find_first_of(" =")) == "method";
   };
@@ -215,12 +219,18 @@ struct Sweep {
   Scene first;  ///< for what all points have alike
   RequestedAccuracy accuracy;
   bool loads_only;
+  bool with_fatigue = false;  ///< fatigue is asked for: every point is a run
 
   explicit Sweep(const SweepCommandOptions& options)
       : tree(tree_without_duty(options)),
-        settings(settings_of_points(options)),
+        settings(settings_of_points(options, false)),
         request(requested(options, read_sweep_request(options.scene, tree))),
         plan(plan_sweep(request)) {
+    with_fatigue = std::any_of(request.figures.begin(), request.figures.end(), is_of_fatigue);
+    if (with_fatigue) {
+      tree = read_scene_tree(options.scene);
+      settings = settings_of_points(options, true);
+    }
     for (const auto& variation : plan.variations)
       refuse_without_use(!options.method.empty() && is_within(variation.key, "method"), "--method",
                          "where --vary chooses it");
@@ -238,7 +248,8 @@ struct Sweep {
     }
     accuracy = with_default(requested_search(options.tolerance, options.time_limit, first.accuracy));
     loads_only = options.loads_only || first.bodies.empty();
-    for (const auto& variation : plan.variations) require_swept(variation.key, request.zones, loads_only);
+    for (const auto& variation : plan.variations)
+      for (const auto& key : variation.keys()) require_swept(key, request.zones, with_fatigue, loads_only);
     variant = variant_of(options);
     variant.sweep = asked_on_command_line(options);
     variant.has_all_of = [this, of_scene = read_sweep_request(options.scene, tree)](const auto& asked) {
@@ -250,7 +261,8 @@ struct Sweep {
   Sweep& operator=(const Sweep&) = delete;
 
   SweepOptions options(const SweepCommandOptions& asked, int n_threads) const {
-    return {asked.scene, tree, settings, n_threads, loads_only, asked.fresh, request.zones, accuracy};
+    return {asked.scene, tree,          settings,     n_threads,    loads_only,
+            asked.fresh, request.zones, with_fatigue, with_fatigue, accuracy};
   }
 };
 
@@ -287,8 +299,8 @@ struct KnownRows {
 
   /// Called once every point was read.
   KnownRows(const SweepCommandOptions& options, const Sweep& sweep, const std::filesystem::path& directory)
-      : journal(directory / "journal",
-                journal_key(options, sweep.accuracy, sweep.request.zones, options.n_threads)),
+      : journal(directory / "journal", journal_key(options, sweep.accuracy, sweep.request.zones,
+                                                   sweep.with_fatigue, options.n_threads)),
         rows(options.fresh ? std::vector<std::optional<SweepRow>>(sweep.plan.points.size())
                            : journal.known(sweep.plan)) {}
 };
@@ -397,7 +409,8 @@ void require_known(const Sweep& sweep, const std::vector<SweepRow>& rows) {
 
 void carry_out(const SweepCommandOptions& options, std::ostream& out) {
   const Sweep sweep(options);
-  const auto& [tree, settings, request, plan, variant, directory, first, accuracy, loads_only] = sweep;
+  const auto& [tree, settings, request, plan, variant, directory, first, accuracy, loads_only, with_fatigue] =
+      sweep;
   StageClock clock(progress_on_stderr(options.verbosity()));
   // The environment outlives the charts: its end unloads Open MPI's libraries, and nothing is drawn in a
   // process that these have left.

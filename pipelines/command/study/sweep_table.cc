@@ -131,7 +131,7 @@ void print_points(std::ostream& out, const SweepPlan& plan, const std::vector<Sw
                   const std::vector<std::string>& figures) {
   constexpr std::size_t most_lines = 60;
   ShownRows table{{"point"}, {}};
-  for (const auto& variation : plan.variations) table.titles.push_back(variation.key);
+  for (const auto& variation : plan.variations) table.titles.push_back(variation.short_key());
   std::vector<bool> has_error;
   for (const auto& figure : figures) {
     has_error.push_back(std::any_of(rows.begin(), rows.end(), [&](const SweepRow& row) {

@@ -227,6 +227,12 @@ double ring_error_Pa(const Judged& analysis, const TorsionRing& ring) {
   return mesh_error_Pa(analysis, ring) + sampling_error_of_Pa(analysis, ring) + rounding_Pa(analysis);
 }
 
+std::optional<LargestTorsion> largest_torsion(const Judged& analysis) {
+  const auto* ring = analysis.diagrams ? largest_torsion_ring(*analysis.diagrams) : nullptr;
+  if (ring == nullptr) return std::nullopt;
+  return LargestTorsion{ring->max_Pa, ring_error_Pa(analysis, *ring)};
+}
+
 bool is_rounding(const Judged& analysis, const TorsionRing& ring) {
   return ring.max_Pa <= rounding_Pa(analysis);
 }

@@ -71,6 +71,9 @@ Eigen::ArrayXd signed_ring_stress_Pa(const Eigen::Array2Xd& shear_Pa);
 /// @param ring  largest_torsion_ring
 double ring_error_Pa(const Judged& analysis, const TorsionRing& ring);
 
+/// Largest torsional stress of a body with its error; none of a body without diagrams.
+std::optional<LargestTorsion> largest_torsion(const Judged& analysis);
+
 /// Whether the ring's stress is what rounding leaves where nothing twists the shaft.
 bool is_rounding(const Judged& analysis, const TorsionRing& ring);
 

@@ -54,6 +54,7 @@ void add_body_figures(SweepRow& row, const Judged& analysis, const std::optional
   add(".governing.error", "Pa", stress.errors.reducible_Pa());  // a cheap model's own error too
   add(".governing.safety", "", stress.safety);
   add(".governing.instant", "", stress.instant);
+  add(".mass", "kg", analysis.masses.mass_kg);
   add(".peak_von_mises", "Pa", analysis.peak.value_Pa);
   if (!analysis.hot_spots.empty()) add(".hot_spot", "Pa", analysis.hot_spots.front().von_mises_Pa);
   if (torsion) {

@@ -30,8 +30,8 @@ struct SweepRow {
 void add_load_figures(SweepRow& row, const Scene& scene, const kinetics::LoadHistory& loads,
                       const std::vector<BearingResult>& bearings);
 
-/// "bodies.<name>": governing stress with its errors, safety, place, instant; peak, hot spot; the largest
-/// stress of every place that may govern; closure; zones where the analysis has them.
+/// "bodies.<name>": governing stress with its errors, safety, place, instant; mass; peak, hot spot; the
+/// largest stress of every place that may govern; closure; zones where the analysis has them.
 /// @param torsion  largest torsional stress of a shaft, where it has one; its error where that is finite
 void add_body_figures(SweepRow& row, const Judged& analysis, const std::optional<LargestTorsion>& torsion);
 

@@ -14,6 +14,7 @@
 #include "pipelines/respond/responses/respond.h"
 #include "pipelines/scene/reader/scene_tree.h"
 #include "pipelines/study/sweep/swept_bodies.h"
+#include "pipelines/study/sweep/whole_run.h"
 #include "pipelines/study/variations/point_work.h"
 
 namespace pipelines {
@@ -120,7 +121,7 @@ public:
   SweepForecast forecast() const {
     SweepForecast result;
     result.n_points = std::size_t(std::count(refused_.begin(), refused_.end(), std::string()));
-    if (!options_.loads_only) result.bodies = bodies_.forecast();
+    if (!options_.loads_only && !options_.whole_runs) result.bodies = bodies_.forecast();
     return result;
   }
 
@@ -158,7 +159,10 @@ public:
                                       open.begin() + std::ptrdiff_t(end));
       if (with_bodies) {
         for (const auto p : points) rows[p].refused = refused_[p];
-        bodies_.run(points, rows, clock);
+        if (options_.whole_runs)
+          run_whole(points, rows, clock);
+        else
+          bodies_.run(points, rows, clock);
       } else {
         clock.run("points", [&] {
           if (needs_bodies_) mesh_for_masses(points);
@@ -172,7 +176,7 @@ public:
       listener(points, rows);
     }
     const auto& accuracy = options_.accuracy;
-    if (with_bodies && accuracy.tolerance > 0 && !accuracy.by_default) {
+    if (with_bodies && !options_.whole_runs && accuracy.tolerance > 0 && !accuracy.by_default) {
       const auto improved = bodies_.improve(rows, accuracy.tolerance, clock);
       if (!improved.empty()) listener(improved, rows);
     }
@@ -185,6 +189,7 @@ private:
   /// Points whose bodies are solved together: as many as a solution serves, so that no solution's points are
   /// lost with the next one.
   std::size_t points_of_bodies_at_once() const {
+    if (options_.whole_runs) return 1;
     std::size_t n_solutions = 1;
     for (const auto& body : bodies_.forecast()) n_solutions = std::max(n_solutions, body.n_solutions);
     return std::clamp(settings_.size() / n_solutions, std::size_t(1), most_points_of_bodies_at_once);
@@ -218,6 +223,13 @@ private:
                                   [](const auto& s) { return sets_effects(s) || switches_effect(s); }),
                    settings.end());
     settings.push_back(effects_setting(scene));
+  }
+
+  void run_whole(const std::vector<std::size_t>& points, std::vector<SweepRow>& rows,
+                 StageClock& clock) const {
+    for (const auto p : points)
+      if (auto& refused = rows[p].refused; refused.empty())
+        refused = point_refusal([&] { rows[p] = whole_run(read(p), options_, clock); });
   }
 
   void mesh_for_masses(const std::vector<std::size_t>& points) {

@@ -29,9 +29,7 @@ std::optional<LargestTorsion> torsion_of(Judged& analysis, const Judged& searche
     analysis.diagrams.emplace().rings = torsion_rings(analysis.loads, analysis.responses, analysis.mesh);
     take_torsion_by_harmonics(searched, analysis);
   }
-  const auto* ring = largest_torsion_ring(*analysis.diagrams);
-  if (ring == nullptr) return std::nullopt;
-  return LargestTorsion{ring->max_Pa, ring_error_Pa(analysis, *ring)};
+  return largest_torsion(analysis);
 }
 
 /// The error of a body's governing stress as a share of it; NaN without.

@@ -19,6 +19,8 @@ struct SweepOptions {
   bool loads_only = false;
   bool fresh = false;
   bool zones = false;            ///< zones of every point, too
+  bool whole_runs = false;       ///< every point is run by itself (whole_run.h)
+  bool fatigue = false;          ///< in whole runs: fatigue, operating blocks and the verdict
   RequestedAccuracy accuracy{};  ///< accuracy of every mesh that is searched
 };
 

@@ -16,7 +16,8 @@ constexpr double most_points = 1e6;
 void add_point(SweepPlan& plan, const std::vector<std::string>& values, const std::vector<double>& numbers) {
   SweepPoint point{values, numbers, {}};
   for (std::size_t k = 0; k < values.size(); ++k)
-    if (values[k] != kept_value) point.settings.push_back(plan.variations[k].key + "=" + values[k]);
+    if (values[k] != kept_value)
+      for (const auto& key : plan.variations[k].keys()) point.settings.push_back(key + "=" + values[k]);
   plan.points.push_back(std::move(point));
 }
 
@@ -138,8 +139,9 @@ SweepPlan plan_sweep(const SweepRequest& request) {
   for (const auto& text : request.vary) {
     plan.variations.push_back(parse_variation(text));
     const auto& variation = plan.variations.back();
-    if (!keys.insert(variation.key).second)
-      throw OptionError("--vary " + text + ": the key is varied already; give all its values at once");
+    for (const auto& key : variation.keys())
+      if (!keys.insert(key).second)
+        throw OptionError("--vary " + text + ": the key is varied already; give all its values at once");
     if (variation.values.empty() && request.design != SweepDesign::latin_hypercube)
       throw OptionError("--vary " + text +
                         ": how many values? Write A..B UNIT / 9, or take --design latin-hypercube");

@@ -128,13 +128,23 @@ std::string Variation::text_of(double number) const {
   return shortest(number) + (unit.empty() ? "" : " " + unit);
 }
 
+std::vector<std::string> Variation::keys() const {
+  return items_of(key);
+}
+
+std::string Variation::short_key() const {
+  const auto all = keys();
+  return all.size() < 2 ? key : all.front() + " and " + std::to_string(all.size() - 1) + " more";
+}
+
 Variation parse_variation(const std::string& text) {
   const auto equals = text.find('=');
   Variation variation;
   variation.key = without_blanks(text.substr(0, equals));
   const std::string values = equals == std::string::npos ? "" : without_blanks(text.substr(equals + 1));
-  if (variation.key.empty() || values.empty())
-    refuse_variation(text, std::string("is no variation; ") + grammar);
+  const auto keys = variation.keys();
+  const bool lacks_a_key = std::any_of(keys.begin(), keys.end(), [](const auto& k) { return k.empty(); });
+  if (lacks_a_key || values.empty()) refuse_variation(text, std::string("is no variation; ") + grammar);
   const auto dots = values.find("..");
   const bool is_range = dots != std::string::npos && values.find_first_of("\"'[{,") == std::string::npos;
   if (!is_range) {

@@ -14,13 +14,19 @@ struct ValueRange {
 };
 
 struct Variation {
-  std::string key;  ///< as in --set: dotted, items of arrays counted from 1
+  /// As in --set: dotted, items of arrays counted from 1. Several that take one value stand behind one
+  /// another, with commas.
+  std::string key;
   /// As in --set; "kept": as the scene has it. Empty: a range without number.
   std::vector<std::string> values;
   std::vector<double> numbers;  ///< the values, in `unit`; empty: they are no numbers of one unit
   std::string unit;             ///< as written; empty: none
   std::optional<ValueRange> range;
 
+  /// Each key by itself.
+  std::vector<std::string> keys() const;
+  /// For titles: "shaft.contour[1].diameter and 4 more".
+  std::string short_key() const;
   bool is_numeric() const { return range || !numbers.empty(); }
   /// The text of --set for a number of the variation's unit.
   std::string text_of(double number) const;
@@ -29,7 +35,7 @@ struct Variation {
 /// The value that leaves a key as the scene has it.
 inline constexpr const char* kept_value = "kept";
 
-/// Reads "KEY = VALUES". VALUES are
+/// Reads "KEY = VALUES", or "KEY, KEY = VALUES" for keys that take one value. VALUES are
 ///   A..B UNIT / N      N values at equal steps, both ends included
 ///   A..B UNIT / N log  at equal ratios
 ///   A..B UNIT          a range that a Latin hypercube draws from
