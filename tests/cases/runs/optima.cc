@@ -4,6 +4,7 @@
 #include "tests/cases/program/small_shaft.h"
 #include "tests/cases/program/swept_points.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace cases;

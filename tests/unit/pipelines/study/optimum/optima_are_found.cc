@@ -1,6 +1,7 @@
 // Requests of an optimisation, its search on figures that formulas give, and the scene that it writes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
