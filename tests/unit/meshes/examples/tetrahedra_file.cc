@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "meshes/gmsh/gmsh_session.h"
@@ -30,6 +31,11 @@ TetrahedraFile read_tetrahedra(const std::filesystem::path& file) {
   TetrahedraFile read;
   meshes::with_gmsh("reading " + file.string(), [&] {
     gmsh::open(file.string());
+    std::vector<std::size_t> node_tags;
+    std::vector<double> xyz_m, parametric;
+    gmsh::model::mesh::getNodes(node_tags, xyz_m, parametric);
+    std::map<std::size_t, std::size_t> number_of;
+    for (std::size_t i = 0; i < node_tags.size(); ++i) number_of[node_tags[i]] = i;
     for (const int dimension : {2, 3}) {
       gmsh::vectorpair groups;
       gmsh::model::getPhysicalGroups(groups, dimension);
@@ -49,8 +55,7 @@ TetrahedraFile read_tetrahedra(const std::filesystem::path& file) {
             (dimension == 2 ? read.area_of : read.volume_of)[name] += size;
             if (dimension == 3) read.volume_m3 += size;
             for (const auto node : nodes[t]) {
-              std::vector<double> x, parametric;
-              gmsh::model::mesh::getNode(node, x, parametric);
+              const double* x = &xyz_m[3 * number_of.at(node)];
               if (dimension == 2) read.nodes_of[name].push_back({x[0], x[1], x[2]});
             }
           }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string_view>
 
 #include "pipelines/judge/life/duty_fatigue.h"
 #include "pipelines/judge/texts/life_text.h"
@@ -81,7 +82,7 @@ struct AlternatingRow {
   }
 };
 
-const FatiguePlace& at(const BodyFatigue& fatigue, const std::string& feature) {
+const FatiguePlace& at(const BodyFatigue& fatigue, std::string_view feature) {
   return *std::find_if(fatigue.places.begin(), fatigue.places.end(),
                        [&](const auto& place) { return place.feature == feature; });
 }

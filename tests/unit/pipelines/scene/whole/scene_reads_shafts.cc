@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "tests/unit/pipelines/examples/edited_scene.h"
 
@@ -15,10 +16,10 @@ void expect_same_size(double value, double expected) {
   EXPECT_NEAR(value, expected, 1e-14 * std::abs(expected));
 }
 
-const meshes::ShaftSegment& segment(const pipelines::BodyScene& body, const std::string& name) {
+const meshes::ShaftSegment& segment(const pipelines::BodyScene& body, std::string_view name) {
   for (const auto& s : body.shaft()->geometry.segments)
     if (s.name == name) return s;
-  throw std::out_of_range(name);
+  throw std::out_of_range(std::string(name));
 }
 
 TEST(SceneDrum, HasSetB) {

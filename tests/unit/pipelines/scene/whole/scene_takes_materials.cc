@@ -96,7 +96,7 @@ TEST(SceneMaterial, GroupIsTheMaterials) {
 }
 
 TEST(SceneFatigue, IsOffWhereTheSceneSaysSo) {
-  const auto& body = shaft(scene_with("material = \"C45\"\nfatigue = \"off\"\n"));
+  const auto body = shaft(scene_with("material = \"C45\"\nfatigue = \"off\"\n"));
   EXPECT_FALSE(body.fatigue);
   EXPECT_TRUE(body.fatigue_off);
   EXPECT_TRUE(body.fatigue_missing.empty());

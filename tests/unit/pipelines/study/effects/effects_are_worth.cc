@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "pipelines/search/effect_choice/effect_report.h"
 #include "tests/unit/pipelines/examples/laboratory.h"
@@ -26,10 +27,10 @@ pipelines::Scene table_scene(const std::vector<std::pair<std::string, kinetics::
   return scene;
 }
 
-const EffectWorth& worth_of(const pipelines::EffectReport& report, const std::string& name) {
+const EffectWorth& worth_of(const pipelines::EffectReport& report, std::string_view name) {
   for (const auto& worth : report.effects)
     if (worth.effect.name == name) return worth;
-  throw std::out_of_range(name);
+  throw std::out_of_range(std::string(name));
 }
 
 }  // namespace
