@@ -24,8 +24,8 @@ Main* program = nullptr;
 
 /// Becomes who asked. Its arguments.
 std::vector<char*> take_over(const start_request::Received& request) {
-  static std::vector<std::string> words;  // the program reads them until it ends
-  words = request.words;
+  // The program reads them until it ends, and libraries after that: they are never freed.
+  auto& words = *new std::vector<std::string>(request.words);
   std::size_t next = 0;
   if (chdir(words[next++].c_str()) != 0) _exit(start_request::cannot_start);
   const auto take = [&] {
@@ -34,10 +34,8 @@ std::vector<char*> take_over(const start_request::Received& request) {
     strings.push_back(nullptr);
     return strings;
   };
-  static std::vector<char*> environment;
   auto arguments = take();
-  environment = take();
-  environ = environment.data();
+  environ = (new std::vector<char*>(take()))->data();
   for (int stream = 0; stream < 3; ++stream)
     if (dup2(request.files[std::size_t(stream)], stream) < 0) _exit(start_request::cannot_start);
   return arguments;
