@@ -118,9 +118,11 @@ TEST(Sweeps, DrawBeforeTheLibrariesOfSolversGo) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   ASSERT_TRUE(fs::exists(directory / "out/chart.png"));
   std::size_t n_processes = 0;
+  bool has_components = false;
   for (const auto& entry : fs::directory_iterator(directory.path)) {
     if (entry.path().filename().string().rfind("loaded.", 0) != 0) continue;
     const auto log = results_test::bytes(entry.path());
+    has_components = has_components || log.find("mca_pml_") != std::string::npos;
     const auto last = [&](const std::string& event, const std::string& library) {
       std::size_t found = std::string::npos;
       for (auto line = log.find(event); line != std::string::npos; line = log.find(event, line + 1))
@@ -132,6 +134,7 @@ TEST(Sweeps, DrawBeforeTheLibrariesOfSolversGo) {
     ++n_processes;
     EXPECT_LT(draws, ends);
   }
+  if (!has_components) GTEST_SKIP() << "skipped: this Open MPI has its components inside, and unloads none";
   EXPECT_EQ(n_processes, 1u);
 }
 
