@@ -16,6 +16,12 @@ bool started_on_several_ranks() {
   return false;
 }
 
+std::string number_from_launcher() {
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "SLURM_PROCID"})
+    if (const char* number = std::getenv(name)) return number;
+  return "";
+}
+
 MPI_Comm ranks_of_a_body() {
   return works_alone ? MPI_COMM_SELF : MPI_COMM_WORLD;
 }

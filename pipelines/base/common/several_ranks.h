@@ -9,6 +9,9 @@ namespace pipelines {
 /// where a body is looked at.
 bool started_on_several_ranks();
 
+/// Number of this rank, as the launcher tells it before MPI is there; empty: it does not.
+std::string number_from_launcher();
+
 /// The ranks that share the work on a body: all of them, or this one alone.
 MPI_Comm ranks_of_a_body();
 int n_ranks_of_a_body();

@@ -198,8 +198,13 @@ int main(int argc, char** argv) {
   std::ios::sync_with_stdio(false);
   if (const int fault = guarded(pipelines::require_usable_stack)) return fault;
   std::optional<fem::Environment> ranks;
-  if (pipelines::started_on_several_ranks())
-    if (const int fault = guarded([&] { ranks.emplace(0); })) std::_Exit(fault);  // mpirun ends the others
+  if (pipelines::started_on_several_ranks()) try {
+      ranks.emplace(0);
+    } catch (...) {
+      const auto failure = pipelines::failure_in_flight();
+      std::cerr << "rank " << pipelines::number_from_launcher() << ": " << failure.message << std::endl;
+      std::_Exit(failure.code);  // mpirun ends the others
+    }
   const int code = run(argc, argv);
   if (code == pipelines::mesh_or_solve_failed && !ranks && pipelines::memory_is_limited()) {
     std::cout.flush();

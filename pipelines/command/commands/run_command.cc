@@ -51,6 +51,7 @@
 #include "pipelines/write/files/staged_results.h"
 #include "pipelines/write/parts/duty_report.h"
 #include "pipelines/write/parts/fatigue_report.h"
+#include "pipelines/write/pictures/load_charts.h"
 #include "pipelines/write/report/html_report.h"
 #include "pipelines/write/report/summary.h"
 
@@ -285,6 +286,11 @@ std::vector<std::string> write_and_draw(const Request& request, const Scene& sce
         write_loads_csv(folder / "loads.csv", loads, run.loaded.channels(), n_threads);
     }
   };
+  const auto draw = [&](std::size_t i) {
+    const auto& speeds = run.analyses[i].critical_speeds;
+    if (speeds) write_whirl_chart(place(i), run.loaded.scene.title, *speeds);
+    return draw_envelope(place(i), run, run.analyses[i], duty);
+  };
   const bool beside = scene.pictures && n_threads > 1 && n_ranks == 1;  // ranks stay in step
   const auto policy = beside ? std::launch::async : std::launch::deferred;
   std::vector<std::string> faults;
@@ -297,7 +303,7 @@ std::vector<std::string> write_and_draw(const Request& request, const Scene& sce
             ? run.analyses[i].scene.name +
                   ": no picture: the time was up; envelope.vtu opens in ParaView, a longer time limit draws "
                   "it"
-        : draws ? clock.run("pictures", [&] { return draw_envelope(place(i), run, run.analyses[i], duty); })
+        : draws ? clock.run("pictures", [&] { return draw(i); })
                 : std::string();
     clock.run("write", [&] { next.get(); });
     if (fault.empty()) continue;

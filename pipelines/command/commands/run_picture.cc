@@ -16,7 +16,6 @@
 #include "pipelines/judge/texts/life_text.h"
 #include "pipelines/judge/verdict/verdict_text.h"
 #include "pipelines/write/files/envelope_files.h"
-#include "pipelines/write/pictures/load_charts.h"
 #include "pipelines/write/pictures/picture.h"
 
 namespace pipelines {
@@ -92,7 +91,6 @@ std::string draw_envelope(const std::filesystem::path& place, const SceneRun& ru
     write_whole_envelope(whole.temporary(), run.loaded.scene, run.loaded.loads, analysis);
     is_drawn = draw(whole.temporary());
   }
-  if (analysis.critical_speeds) write_whirl_chart(place, run.loaded.scene.title, *analysis.critical_speeds);
   return is_drawn ? "" : "no picture: " + why_nothing_draws() + "; envelope.vtu opens in ParaView";
 }
 

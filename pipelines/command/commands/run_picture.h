@@ -10,8 +10,7 @@
 namespace pipelines {
 
 /// Draws envelope.png beside the envelope of one body, which is written: its governing stress is marked with
-/// the verdict, and the weld toes that last least with their lives; and the chart of a shaft's whirl, where
-/// there is one. On the first rank.
+/// the verdict, and the weld toes that last least with their lives. On the first rank.
 /// @param place  the folder of the body's results
 /// @param duty   operating blocks, if the scene has any; else null
 /// @return empty; on a machine that cannot draw, the line that says so

@@ -15,7 +15,6 @@
 #include "pipelines/command/options/option_value.h"
 #include "pipelines/command/options/result_place.h"
 #include "pipelines/command/study/sweep_charts.h"
-#include "pipelines/respond/responses/response_key.h"
 #include "pipelines/scene/reader/key_settings.h"
 #include "pipelines/scene/reader/scene_tree.h"
 #include "pipelines/scene/whole/requested_method.h"
@@ -119,24 +118,13 @@ std::vector<double> starts_of(const Optimisation& optimisation) {
   return starts;
 }
 
-/// All that a row depends on beside its settings.
-std::string journal_key_of(const Optimisation& optimisation) {
-  std::string key = program_fingerprint() + "\noptimise\n";
-  for (const auto& input : noted_inputs()) key += input.file.string() + ' ' + input.hash + '\n';
-  for (const auto& setting : optimisation.settings) key += setting + '\n';
-  const auto& sweep = optimisation.sweep;
-  const auto& accuracy = sweep.accuracy;
-  return key + fmt::format("{} {} {} {} {} {}", sweep.loads_only, sweep.fatigue, sweep.n_threads,
-                           accuracy.tolerance, accuracy.time_limit_s, accuracy.once);
-}
-
 /// Points that are computed one after the other, and kept for a call that goes on where this one ends. The
 /// path is the same in each call, so what an earlier one has computed comes first.
 class PointsOnPath {
 public:
   PointsOnPath(const Optimisation& optimisation, const std::filesystem::path& directory, StageClock& clock)
       : optimisation_(optimisation),
-        journal_(directory / "journal", journal_key_of(optimisation)),
+        journal_(directory / "journal", journal_key("optimise", optimisation.sweep)),
         clock_(clock),
         is_new_(optimisation.sweep.fresh) {}
 

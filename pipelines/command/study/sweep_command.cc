@@ -59,17 +59,6 @@ SweepRequest requested(const SweepCommandOptions& options, SweepRequest request)
   return request;
 }
 
-/// All that a row depends on beside its settings, once a point was read.
-std::string journal_key(const SweepCommandOptions& options, const RequestedAccuracy& accuracy, bool zones,
-                        bool fatigue, int n_threads) {
-  std::string key = program_fingerprint() + '\n';
-  for (const auto& input : noted_inputs()) key += input.file.string() + ' ' + input.hash + '\n';
-  for (const auto& setting : options.settings) key += setting + '\n';
-  if (!options.method.empty()) key += "--method " + options.method + '\n';
-  return key + fmt::format("{} {} {} {} {} {} {} {}", options.loads_only, zones, fatigue, accuracy.tolerance,
-                           accuracy.time_limit_s, accuracy.once, accuracy.by_default, n_threads);
-}
-
 /// Whether a key is that of a table or list, or of something in it.
 bool is_within(const std::string& key, const std::string& table) {
   return key.compare(0, table.size(), table) == 0 &&
@@ -299,8 +288,7 @@ struct KnownRows {
 
   /// Called once every point was read.
   KnownRows(const SweepCommandOptions& options, const Sweep& sweep, const std::filesystem::path& directory)
-      : journal(directory / "journal", journal_key(options, sweep.accuracy, sweep.request.zones,
-                                                   sweep.with_fatigue, options.n_threads)),
+      : journal(directory / "journal", journal_key("sweep", sweep.options(options, options.n_threads))),
         rows(options.fresh ? std::vector<std::optional<SweepRow>>(sweep.plan.points.size())
                            : journal.known(sweep.plan)) {}
 };

@@ -134,20 +134,27 @@ Finding judge_amplification(const RunReport& report, const Vibration& vibration)
   return finding;
 }
 
+/// What the frequency of a beam may be off where no solid tells: three times the most that was seen
+/// (fem/models/README.md).
+constexpr double beam_alone = 0.1;
+
 /// The nearest critical speed, as those of a drive train in torsion are weighed.
 Finding judge_critical_speed(const RunReport& report, const CriticalSpeeds& speeds) {
   Finding finding{"resonance", Judgement::ok, "", "no load meets a whirl", "", std::nullopt, std::nullopt};
   const auto load = governing_load(speeds);
   if (!load) return finding;
   const double limit = report.scene.limits.resonance_margin, margin = std::abs(load->margin);
-  const double error = load->error_rad_s / load->speed_rad_s + speeds.model_error.value_or(0);
+  const double error = load->error_rad_s / load->speed_rad_s + speeds.model_error.value_or(beam_alone);
   finding.margin = margin / limit;
   finding.least_margin = std::max(margin - error, 0.0) / limit;
   finding.judgement = weigh(*finding.margin, finding.least_margin);
   finding.figure =
       fmt::format("{} meets the whirl at {:.4g} rpm, {:.1f} % from there; {:g} % are wanted",
                   load_name(load->order), load->speed_rad_s * 30 / pi, 100 * margin, 100 * limit);
-  if (finding.judgement != Judgement::ok)
+  if (finding.judgement == Judgement::not_judged && !speeds.model_error)
+    finding.remedy = fmt::format(
+        "natural_frequencies = 2 tells the beam's own error, for which {:g} % are taken", 100 * beam_alone);
+  else if (finding.judgement != Judgement::ok)
     finding.remedy = "another speed, stiffness of the bearings, or diameter";
   return finding;
 }

@@ -21,6 +21,11 @@ constexpr double share_left = 0.02;
 /// An end of a range limits it where the optimum is no farther away than this share of the range.
 constexpr double share_of_range = 2e-3;
 
+bool is_life(const std::string& figure) {
+  const std::string end = ".life";
+  return figure.size() > end.size() && figure.compare(figure.size() - end.size(), end.size(), end) == 0;
+}
+
 const SweepRow& best_row(const Optimum& optimum) {
   return optimum.rows[optimum.best];
 }
@@ -40,6 +45,14 @@ std::string end_that_limits(const Optimum& optimum, std::size_t v) {
   const double number = optimum.plan.points[optimum.best].numbers[v];
   const double near = share_of_range * (high - low);
   return number - low <= near ? "lower end" : high - number <= near ? "upper end" : "";
+}
+
+/// A bound of four digits that a value keeps.
+double kept_in_four_digits(double value, bool is_least) {
+  if (value == 0 || !std::isfinite(value)) return value;
+  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3);
+  constexpr double rounding = 1e-9;
+  return (is_least ? std::floor(value / step + rounding) : std::ceil(value / step - rounding)) * step;
 }
 
 void print_keys(std::ostream& out, const OptimumRequest& request, const Optimum& optimum) {
@@ -133,7 +146,7 @@ std::string figure_text(const SweepRow& row, const std::string& figure) {
   const double value = row.figure(figure) / shown.one, error = stated_error(row, figure) / shown.one;
   const std::string unit = shown.unit.empty() ? "" : " " + shown.unit;
   if (std::isnan(value)) return "-";
-  if (std::isinf(value)) return "endures";
+  if (std::isinf(value)) return is_life(figure) ? "endures" : "no limit";
   if (std::isinf(error)) return fmt::format("{:.4g} +- ?{}", value, unit);
   return error == 0 ? fmt::format("{:.4g}{}", value, unit)
                     : fmt::format("{:.4g} +- {:.2g}{}", value, error, unit);
@@ -165,10 +178,11 @@ std::string why_not_kept(const OptimumRequest& request, const Optimum& optimum) 
     keys += (v == 0 ? "" : ", ") + request.variations[v].short_key() + " = " +
             optimum.plan.points[optimum.best].values[v];
   return fmt::format(
-      "--keep {}: no point in the ranges keeps it; the nearest has {}, so that {} {:.4g}{} can be kept, at "
-      "{}",
-      bound.text, figure_text(best_row(optimum), bound.figure),
-      bound.is_least ? ">=" : "<=", assured(best_row(optimum), bound) / shown.one,
+      "--keep {}: none of {} points keeps it{}; the nearest has {}, so that {} {:.4g}{} can be kept, at {}",
+      bound.text, optimum.rows.size(),
+      optimum.has_converged ? "" : ", and the evaluations are used up: --evaluations gives more",
+      figure_text(best_row(optimum), bound.figure), bound.is_least ? ">=" : "<=",
+      kept_in_four_digits(assured(best_row(optimum), bound) / shown.one, bound.is_least),
       shown.unit.empty() ? "" : " " + shown.unit, keys);
 }
 

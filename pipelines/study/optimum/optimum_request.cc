@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "pipelines/base/common/errors.h"
 #include "pipelines/base/names/name_lists.h"
@@ -98,7 +99,8 @@ double bound_in_si(const KeptBound& bound, const SweepRow& row) {
 double stated_error(const SweepRow& row, const std::string& figure) {
   for (const char* error : {".error.total", ".error"})
     if (const double value = row.figure(figure + error); !std::isnan(value)) return value;
-  return 0;
+  const bool is_stress = figure.rfind("bodies.", 0) == 0 && unit_of_figure(row, figure) == "Pa";
+  return is_stress ? std::numeric_limits<double>::infinity() : 0;
 }
 
 double assured(const SweepRow& row, const KeptBound& bound) {

@@ -1,6 +1,7 @@
 #include "pipelines/study/sweep/sweep_journal.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,7 +17,9 @@
 #include "pipelines/base/disk/open_directory.h"
 #include "pipelines/base/files/atomic_file.h"
 #include "pipelines/base/files/content_hash.h"
+#include "pipelines/base/files/replaceable.h"
 #include "pipelines/base/files/whole_file.h"
+#include "pipelines/respond/responses/response_key.h"
 
 namespace pipelines {
 namespace {
@@ -91,6 +94,16 @@ bool write_all(int file, std::string_view text) {
 }
 
 }  // namespace
+
+std::string journal_key(const std::string& kind, const SweepOptions& options) {
+  std::string key = program_fingerprint() + '\n' + kind + '\n';
+  for (const auto& input : noted_inputs()) key += input.file.string() + ' ' + input.hash + '\n';
+  for (const auto& setting : options.settings) key += setting + '\n';
+  const auto& accuracy = options.accuracy;
+  return key + fmt::format("{} {} {} {} {} {} {} {}", options.loads_only, options.zones, options.fatigue,
+                           accuracy.tolerance, accuracy.time_limit_s, accuracy.once, accuracy.by_default,
+                           options.n_threads);
+}
 
 SweepJournal::SweepJournal(std::filesystem::path file, std::string key)
     : file_(std::move(file)), key_(text_hash(key)) {}

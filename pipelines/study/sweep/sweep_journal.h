@@ -19,9 +19,15 @@
 #include <vector>
 
 #include "pipelines/study/sweep/sweep_row.h"
+#include "pipelines/study/variations/sweep_options.h"
 #include "pipelines/study/variations/sweep_points.h"
 
 namespace pipelines {
+
+/// All that rows depend on beside their settings, once a point was read: the program, the files that were
+/// read, the settings of all points, and what is asked for.
+/// @param kind  of what keeps the journal: "sweep"
+std::string journal_key(const std::string& kind, const SweepOptions& options);
 
 class SweepJournal {
 public:

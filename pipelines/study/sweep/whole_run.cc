@@ -65,6 +65,8 @@ void add_errors(WholeRow& row, const Judged& analysis) {
   if (stress.value_Pa > 0)
     row.add_error(".governing.safety", "", stress.safety,
                   stress.safety * stress.value_Pa / (stress.value_Pa + error_Pa));
+  row.add(".peak_von_mises.error", "Pa", analysis.peak.errors.total_Pa());
+  if (!analysis.hot_spots.empty()) row.add(".hot_spot.error", "Pa", analysis.hot_spot_errors.total_Pa());
 }
 
 void add_fatigue(WholeRow& row, const BodyFatigue& fatigue) {

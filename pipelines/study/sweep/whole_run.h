@@ -16,6 +16,7 @@ bool is_of_fatigue(const std::string& figure);
 /// The figures of a sweep's row, and beside them
 ///   bodies.<name>.governing.error.total            all errors together
 ///   bodies.<name>.governing.safety.error           what they may take of the safety
+///   bodies.<name>.peak_von_mises.error, .hot_spot.error
 /// and where SweepOptions::fatigue asks for it
 ///   bodies.<name>.margin.<criterion>, with .error  factor on all loads at which the limit is met
 ///   bodies.<name>.fatigue.utilisation, .safety, .life; .welds.life; .duty.life, each with .error

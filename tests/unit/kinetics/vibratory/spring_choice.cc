@@ -110,7 +110,7 @@ TEST(SpringChoice, NoStiffnessScannedByBruteForceIsBetter) {
     auto mill = i == 0 ? machines::laboratory() : machines::random(generator);
     if (i % 3 == 2) {
       mill.convention = Convention::published;
-      mill.springs.resize(2, mill.springs[0]);
+      mill.springs = {mill.springs[0], mill.springs[mill.springs.size() > 1 ? 1 : 0]};
     }
     for (const auto aim : both) {
       const auto choice = choose_springs(mill, held(mill), grid, aim);

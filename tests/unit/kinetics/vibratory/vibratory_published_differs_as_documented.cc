@@ -38,7 +38,7 @@ TEST(VibratoryPublished, LacksCentripetalTermAndCarriedMasses) {
       spring.preload_N = Vector2d::Zero();
       spring.stiffness_N_m.x() = 0;
     }
-    mill.springs.resize(2, mill.springs[0]);
+    mill.springs = {mill.springs[0], mill.springs[mill.springs.size() > 1 ? 1 : 0]};
     const auto consistent = compute_loads(
         mill, effects_without(mill, {"pitch", "charge_follows_pitch", "charge_lag", "spring_damping"}),
         {2, 30});

@@ -154,8 +154,29 @@ TEST(OptimumSearch, SaysWhatCanBeKeptNearest) {
   EXPECT_FALSE(optimum.is_kept);
   EXPECT_EQ(optimum.plan.points[optimum.best].numbers[0], 40);
   const auto why = why_not_kept(request, optimum);
-  EXPECT_NE(why.find("--keep stress <= 20 MPa"), std::string::npos) << why;
+  EXPECT_NE(why.find("--keep stress <= 20 MPa: none of "), std::string::npos) << why;
   EXPECT_NE(why.find("<= 27.5 MPa can be kept, at d = 40 mm"), std::string::npos) << why;
+}
+
+// 4e10 / 40^2 x 1.11096 = 27.774 MPa is not kept by 27.77. Turns red: a bound that is rounded to what
+// does not hold, or a search that was cut short and speaks for all points.
+TEST(OptimumSearch, SaysNoMoreThanItKnows) {
+  auto request = lightest_bar("stress <= 20 MPa");
+  request.most_evaluations = 2;
+  const auto optimum = find_optimum(
+      request, {{40}, 0, [](const SweepPoint& point, double) { return bar(point.numbers[0], 0.11096); }});
+  const auto why = why_not_kept(request, optimum);
+  EXPECT_NE(why.find("the evaluations are used up"), std::string::npos) << why;
+  EXPECT_NE(why.find("<= 27.78 MPa can be kept"), std::string::npos) << why;
+}
+
+// Turns red: a stress whose error nobody states counts as exact.
+TEST(OptimumRequests, KeepNoBoundOfAStressWithoutAnError) {
+  const auto bound = parse_bound("bodies.bar.peak <= 100 MPa");
+  const auto row = row_of({{"bodies.bar.peak", "Pa", 1e6}, {"bodies.bar.mass", "kg", 2}});
+  EXPECT_GT(shortfall(row, bound, 100e6), 0);
+  EXPECT_EQ(figure_text(row, bound.figure), "1 +- ? MPa");
+  EXPECT_LT(shortfall(row, parse_bound("bodies.bar.mass <= 3 kg"), 3), 0) << "a mass has no error";
 }
 
 // Turns red: a refused point counts as a good one, or ends the search.
